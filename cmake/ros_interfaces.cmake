@@ -1,0 +1,1 @@
+# Messages and run-time parameters.

@@ -1,0 +1,33 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_CANCELLATION_H
+#define LIGHT_FIELD_DEPTH_CORE_CANCELLATION_H
+
+#include <atomic>
+
+#include "light_field_depth/core/error.h"
+
+namespace light_field_depth
+{
+/// A flag by which another thread stops a running pipeline. Thread safe.
+class CancellationToken
+{
+public:
+  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+  void reset() { cancelled_.store(false, std::memory_order_relaxed); }
+  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+
+  /// @throw Cancelled after cancel().
+  void check() const
+  {
+    if (cancelled())
+    {
+      throw Cancelled();
+    }
+  }
+
+private:
+  std::atomic<bool> cancelled_{false};
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_CANCELLATION_H

@@ -1,0 +1,62 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_ESTIMATOR_H
+#define LIGHT_FIELD_DEPTH_CORE_ESTIMATOR_H
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/run_context.h"
+
+namespace light_field_depth
+{
+/// A disparity map in the pixel grid of one view.
+struct ViewDisparity
+{
+  std::size_t view_index = 0;  ///< into LightField::views of the light field that was given to the estimator
+  cv::Mat disparity;           ///< CV_32FC1, pixels per grid step; NaN where unknown
+  cv::Mat confidence;          ///< CV_32FC1, 0..1
+};
+
+/// What an estimator finds out about one light field.
+struct DisparityEstimate
+{
+  /// CV_32FC1 in the size of the views: disparity of the reference view in pixels per grid step, positive
+  /// nearer than the plane of zero disparity. Dense and finite: where nothing is known the value is filled
+  /// from the surroundings and the confidence is 0.
+  cv::Mat disparity;
+  /// CV_32FC1, 0..1; 0 where nothing supports the disparity.
+  cv::Mat confidence;
+  /// The range that was searched: the given one, or the one that was found.
+  DisparityRange range;
+  /// How many views took part.
+  std::size_t views_used = 0;
+  /// One map for each view that has one; only if EstimateRequest::view_disparities.
+  std::vector<ViewDisparity> view_disparities;
+};
+
+/// What is asked of an estimator besides its options.
+struct EstimateRequest
+{
+  std::optional<DisparityRange> disparity_range;  ///< found from the images when absent
+  ViewSelection views = ViewSelection::Auto;
+  bool view_disparities = false;  ///< also compute the maps of the other views, for the dense cloud
+};
+
+/// A method that finds the disparity of a light field. An estimator keeps its buffers from call to call; it
+/// is used by one thread at a time. The result depends neither on earlier calls nor on the number of threads.
+class Estimator
+{
+public:
+  virtual ~Estimator() = default;
+
+  /// @throw InputError, Cancelled
+  virtual DisparityEstimate estimate(const LightField& light_field, const EstimateRequest& request,
+                                     RunContext& context) = 0;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_ESTIMATOR_H

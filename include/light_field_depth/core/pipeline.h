@@ -1,0 +1,103 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_PIPELINE_H
+#define LIGHT_FIELD_DEPTH_CORE_PIPELINE_H
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/cancellation.h"
+#include "light_field_depth/core/estimator.h"
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/paper2017_estimator.h"
+#include "light_field_depth/core/point_cloud.h"
+#include "light_field_depth/core/run_context.h"
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth
+{
+enum class Method
+{
+  Paper2017  ///< the method of the 2017 paper, stage by stage
+};
+
+/// "paper2017".
+std::string toString(Method method);
+/// The inverse of toString(). @throw InputError that lists the names.
+Method methodFromString(const std::string& name);
+/// The names of all methods, the default first.
+std::vector<std::string> methodNames();
+
+/// All settings of a run. Each stage's struct is the one home of its defaults.
+struct PipelineOptions
+{
+  Method method = Method::Paper2017;
+  ViewSelection views = ViewSelection::Auto;
+  /// In pixels per grid step; found from the images when absent.
+  std::optional<DisparityRange> disparity_range;
+  Paper2017Options paper2017;
+  /// Confidence below which the organised cloud and the depth map have NaN. Raise it to see only what is
+  /// certain.
+  float min_confidence = 0.0F;
+  DenseCloudOptions dense_cloud;
+};
+
+/// One whole sentence for each option that cannot be used; empty when all can.
+std::vector<std::string> validate(const PipelineOptions& options);
+
+/// The products that a caller wants; what is not wanted is not computed.
+struct ProductRequest
+{
+  bool depth = false;
+  bool organized_cloud = false;
+  bool dense_cloud = false;
+};
+
+struct PipelineResult
+{
+  DisparityEstimate estimate;
+  cv::Mat depth;  ///< CV_32FC1 metres, NaN where unknown; empty without calibration
+  std::vector<ColoredPoint> organized_cloud;  ///< row-major, NaN where unknown; empty without calibration
+  std::vector<ColoredPoint> dense_cloud;      ///< no NaN; empty without calibration
+  std::vector<StageTime> stage_times;
+  double total_ms = 0.0;
+};
+
+/// Runs the stages in order. Keeps threads and buffers from frame to frame; used by one thread at a time,
+/// except cancel(). The only place that knows the order of the stages.
+class Pipeline
+{
+public:
+  /// @param threads that work inside a stage, the caller's included; 0 takes one per processor.
+  explicit Pipeline(int threads = 0);
+  ~Pipeline();
+
+  int threads() const { return pool_.threads(); }
+
+  /// Receives intermediate results and progress of the following runs.
+  void setIntermediateSink(IntermediateSink sink) { intermediate_sink_ = std::move(sink); }
+  void setProgressSink(ProgressSink sink) { progress_sink_ = std::move(sink); }
+
+  /// @throw InputError for options or input that cannot be used, Cancelled after cancel()
+  PipelineResult run(const LightField& light_field, const PipelineOptions& options,
+                     const ProductRequest& request);
+
+  /// Makes the run in hand and every later one throw Cancelled soon. Thread safe.
+  void cancel() { cancellation_.cancel(); }
+
+private:
+  Estimator& estimatorFor(const PipelineOptions& options);
+
+  CancellationToken cancellation_;
+  ThreadPool pool_;
+  IntermediateSink intermediate_sink_;
+  ProgressSink progress_sink_;
+  std::unique_ptr<Paper2017Estimator> paper2017_;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_PIPELINE_H

@@ -1,0 +1,57 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_RUN_CONTEXT_H
+#define LIGHT_FIELD_DEPTH_CORE_RUN_CONTEXT_H
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth
+{
+/// Wall-clock time of one stage of the pipeline.
+struct StageTime
+{
+  std::string stage;
+  double milliseconds = 0.0;
+};
+
+/// Receives intermediate results: a name usable as a file name without extension, and a matrix.
+using IntermediateSink = std::function<void(const std::string& name, const cv::Mat& values)>;
+
+/// Receives the name of the stage that begins and the fraction of the work done before it, 0..1.
+using ProgressSink = std::function<void(const std::string& stage, double fraction)>;
+
+/// What every stage of a run shares besides its data. Belongs to one run on one thread.
+struct RunContext
+{
+  explicit RunContext(ThreadPool& thread_pool) : pool(thread_pool) {}
+
+  ThreadPool& pool;
+  std::vector<StageTime> stage_times;  ///< in order of first appearance; repeated stages are added up
+  IntermediateSink save_intermediate;  ///< empty when nobody wants them
+  ProgressSink progress;               ///< empty when nobody wants it
+};
+
+/// Adds the time from its construction to its destruction to one stage of the context.
+class StageTimer
+{
+public:
+  StageTimer(RunContext& context, std::string stage);
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+private:
+  RunContext& context_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_RUN_CONTEXT_H

@@ -1,0 +1,49 @@
+#ifndef LIGHT_FIELD_DEPTH_IO_DATASET_H
+#define LIGHT_FIELD_DEPTH_IO_DATASET_H
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "light_field_depth/core/light_field.h"
+
+namespace light_field_depth
+{
+/// Whether the numbering of a dataset's rows or columns runs against the convention (rows downwards, columns
+/// to the right). Flipping turns the order round, so that positive disparities are nearer again.
+enum class Flip
+{
+  None,
+  Rows,
+  Columns,
+  Both
+};
+
+/// "none", "rows", "columns", "both". @throw InputError that lists the names.
+Flip flipFromString(const std::string& name);
+
+struct DatasetOptions
+{
+  std::optional<GridPosition> reference;  ///< numbered as in the dataset's files; the middle view when absent
+  std::optional<Flip> flip;               ///< what the dataset's own description says when absent
+  int threads = 0;                        ///< that decode images; 0 takes one per processor
+};
+
+/// A light field read from a folder.
+struct Dataset
+{
+  LightField light_field;
+  std::string format;                             ///< "hci", "grid", "stanford" or "yaml"
+  std::vector<std::filesystem::path> files;       ///< of LightField::views, in their order
+  std::optional<DisparityRange> disparity_range;  ///< as the dataset's description states it, in px per step
+  std::optional<std::filesystem::path> truth;     ///< a PFM with the disparity of the reference view
+};
+
+/// Recognises the format of a folder by its files and reads all views, in parallel.
+/// @throw InputError that names the folder or the file, what is wrong with it and the remedy
+Dataset readDataset(const std::filesystem::path& folder, const DatasetOptions& options = {});
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_IO_DATASET_H

@@ -1,0 +1,39 @@
+#include "light_field_depth/core/geometry.h"
+
+#include <cmath>
+#include <limits>
+
+namespace light_field_depth
+{
+float depthFromDisparity(float disparity_px, const Calibration& calibration)
+{
+  const double absolute_disparity = disparity_px + calibration.disparity_offset_px;
+  if (!(absolute_disparity > 0.0) || std::isinf(absolute_disparity))
+  {
+    return std::numeric_limits<float>::quiet_NaN();
+  }
+  return static_cast<float>(calibration.focal_length_px * calibration.baseline_m / absolute_disparity);
+}
+
+float disparityFromDepth(float depth_m, const Calibration& calibration)
+{
+  return static_cast<float>(calibration.focal_length_px * calibration.baseline_m / depth_m -
+                            calibration.disparity_offset_px);
+}
+
+cv::Mat depthMap(const cv::Mat& disparity, const Calibration& calibration)
+{
+  cv::Mat depth(disparity.size(), CV_32FC1);
+  for (int y = 0; y < disparity.rows; ++y)
+  {
+    const float* const disparity_row = disparity.ptr<float>(y);
+    float* const depth_row = depth.ptr<float>(y);
+    for (int x = 0; x < disparity.cols; ++x)
+    {
+      depth_row[x] = depthFromDisparity(disparity_row[x], calibration);
+    }
+  }
+  return depth;
+}
+
+}  // namespace light_field_depth

@@ -1,0 +1,162 @@
+#include "light_field_depth/core/pipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "light_field_depth/core/error.h"
+#include "light_field_depth/core/geometry.h"
+
+namespace light_field_depth
+{
+namespace
+{
+constexpr std::array<std::pair<Method, const char*>, 1> METHOD_NAMES = {{
+    {Method::Paper2017, "paper2017"},
+}};
+
+void append(std::vector<std::string>& problems, std::vector<std::string> more)
+{
+  std::move(more.begin(), more.end(), std::back_inserter(problems));
+}
+
+void throwIfAny(const std::vector<std::string>& problems)
+{
+  if (problems.empty())
+  {
+    return;
+  }
+  std::string text;
+  for (const std::string& problem : problems)
+  {
+    text += (text.empty() ? "" : " ") + problem;
+  }
+  throw InputError(text);
+}
+
+}  // namespace
+
+std::string toString(Method method)
+{
+  const auto* const found = std::find_if(METHOD_NAMES.begin(), METHOD_NAMES.end(),
+                                         [&](const auto& entry) { return entry.first == method; });
+  return found->second;
+}
+
+Method methodFromString(const std::string& name)
+{
+  const auto* const found = std::find_if(METHOD_NAMES.begin(), METHOD_NAMES.end(),
+                                         [&](const auto& entry) { return name == entry.second; });
+  if (found == METHOD_NAMES.end())
+  {
+    std::string names;
+    for (const std::string& known : methodNames())
+    {
+      names += (names.empty() ? "" : ", ") + known;
+    }
+    throw InputError("There is no method '" + name + "'; choose one of: " + names + ".");
+  }
+  return found->first;
+}
+
+std::vector<std::string> methodNames()
+{
+  std::vector<std::string> names;
+  for (const auto& entry : METHOD_NAMES)
+  {
+    names.emplace_back(entry.second);
+  }
+  return names;
+}
+
+std::vector<std::string> validate(const PipelineOptions& options)
+{
+  std::vector<std::string> problems;
+  if (options.disparity_range)
+  {
+    const DisparityRange& range = *options.disparity_range;
+    if (!std::isfinite(range.min) || !std::isfinite(range.max) || range.min >= range.max)
+    {
+      problems.push_back("disparity_range is " + std::to_string(range.min) + ".." +
+                         std::to_string(range.max) + " px; give two finite numbers, the smaller first.");
+    }
+  }
+  if (!(options.min_confidence >= 0.0F && options.min_confidence <= 1.0F))
+  {
+    problems.push_back("min_confidence is " + std::to_string(options.min_confidence) +
+                       "; it must be between 0 and 1.");
+  }
+  append(problems, validate(options.dense_cloud));
+  append(problems, validate(options.paper2017));
+  return problems;
+}
+
+Pipeline::Pipeline(int threads) : pool_(threads)
+{
+  pool_.setCancellation(&cancellation_);
+}
+
+Pipeline::~Pipeline() = default;
+
+Estimator& Pipeline::estimatorFor(const PipelineOptions& options)
+{
+  switch (options.method)
+  {
+    case Method::Paper2017:
+      break;
+  }
+  if (!paper2017_)
+  {
+    paper2017_ = std::make_unique<Paper2017Estimator>();
+  }
+  paper2017_->setOptions(options.paper2017);
+  return *paper2017_;
+}
+
+PipelineResult Pipeline::run(const LightField& light_field, const PipelineOptions& options,
+                             const ProductRequest& request)
+{
+  throwIfAny(validate(options));
+  const auto start = std::chrono::steady_clock::now();
+  RunContext context(pool_);
+  context.save_intermediate = intermediate_sink_;
+  context.progress = progress_sink_;
+
+  const bool calibrated = light_field.calibration.has_value();
+  EstimateRequest estimate_request;
+  estimate_request.disparity_range = options.disparity_range;
+  estimate_request.views = options.views;
+  estimate_request.view_disparities = request.dense_cloud && calibrated;
+
+  PipelineResult result;
+  result.estimate = estimatorFor(options).estimate(light_field, estimate_request, context);
+  if (calibrated)
+  {
+    const StageTimer timer(context, "geometry");
+    const DisparityEstimate& estimate = result.estimate;
+    if (request.depth)
+    {
+      result.depth = depthMap(estimate.disparity, *light_field.calibration);
+      result.depth.setTo(std::nan(""), estimate.confidence < options.min_confidence);
+    }
+    if (request.organized_cloud)
+    {
+      result.organized_cloud.resize(estimate.disparity.total());
+      unprojectReference(light_field, estimate.disparity, estimate.confidence, options.min_confidence, pool_,
+                         result.organized_cloud.data());
+    }
+    if (request.dense_cloud)
+    {
+      result.dense_cloud = denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_);
+    }
+  }
+  result.stage_times = std::move(context.stage_times);
+  result.total_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace light_field_depth
