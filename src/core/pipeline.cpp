@@ -65,6 +65,7 @@ Method methodFromString(const std::string& name)
 std::vector<std::string> methodNames()
 {
   std::vector<std::string> names;
+  names.reserve(METHOD_NAMES.size());
   for (const auto& entry : METHOD_NAMES)
   {
     names.emplace_back(entry.second);
