@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# The main job on the bundled light field: bag -> rosbag play -> nodelet -> RViz. Called by ./run demo, which has built the
+# package and sourced its setup file.
+#   TOOLS   folder of the package's programs        OUTPUT  folder for the results
+# --headless: RViz under Xvfb, a picture of it instead of a window, and an end.
+set -euo pipefail
+
+TOP=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+HEADLESS=false
+[ -n "${DISPLAY:-}" ] || HEADLESS=true
+for argument in "$@"; do
+  case "$argument" in
+    --headless) HEADLESS=true ;;
+    *) echo "demo: there is no argument '$argument'; --headless is the only one." >&2 && exit 2 ;;
+  esac
+done
+
+PIDS=()
+cleanup()
+{
+  trap - EXIT
+  local pid
+  for pid in "${PIDS[@]}"; do
+    kill -INT "$pid" 2>/dev/null || true
+  done
+  for pid in "${PIDS[@]}"; do
+    timeout 15 tail --pid="$pid" -f /dev/null || kill -KILL "$pid" 2>/dev/null || true
+  done
+}
+trap cleanup EXIT
+trap 'exit 130' INT TERM
+
+say()
+{
+  echo "[demo] $*" >&2
+}
+
+# wait_until SECONDS COMMAND...: polls; fails when the time is over.
+wait_until()
+{
+  local deadline=$((SECONDS + $1))
+  shift
+  until "$@"; do
+    [ $SECONDS -lt $deadline ] || return 1
+    sleep 0.5
+  done
+}
+
+start_virtual_display()
+{
+  local number_file=$1
+  Xvfb -displayfd 3 -screen 0 1600x900x24 +extension GLX 3>"$number_file" >/dev/null 2>&1 &
+  PIDS+=($!)
+  wait_until 20 test -s "$number_file" || { say "Xvfb did not start."; exit 1; }
+  DISPLAY=:$(cat "$number_file")
+  export DISPLAY LIBGL_ALWAYS_SOFTWARE=1
+}
+
+# The picture is ready when RViz has drawn the cloud: many colours on the screen.
+take_picture()
+{
+  import -window root "$1" 2>/dev/null && [ "$(identify -format %k "$1")" -gt 20000 ]
+}
+
+mkdir -p "$OUTPUT"
+SCRATCH=$(mktemp -d)
+export ROS_HOME=$SCRATCH/ros ROS_LOG_DIR=$SCRATCH/log ROSCONSOLE_STDOUT_LINE_BUFFERED=1
+export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-$SCRATCH/runtime}
+mkdir -p "$ROS_HOME" "$ROS_LOG_DIR"
+mkdir -p -m 700 "$XDG_RUNTIME_DIR"
+PORT=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
+export ROS_MASTER_URI=http://localhost:$PORT
+
+say "writing the bag"
+"$TOOLS/dataset_to_bag" --input "$TOP/data/demo" --output "$SCRATCH/demo.bag" --count 20 --rate 2
+
+$HEADLESS && start_virtual_display "$SCRATCH/display"
+
+say "starting the nodelet and RViz"
+roslaunch --port "$PORT" light_field_depth demo.launch bag:="$SCRATCH/demo.bag" >"$SCRATCH/roslaunch.log" 2>&1 &
+PIDS+=($!)
+
+"$TOOLS/demo_report" --truth "$TOP/data/demo/truth.pfm" --output "$OUTPUT" --timeout 90 || {
+  tail -n 30 "$SCRATCH/roslaunch.log" >&2
+  exit 1
+}
+
+if $HEADLESS; then
+  say "taking the picture"
+  wait_until 60 take_picture "$OUTPUT/rviz.png" || { say "RViz did not draw the cloud within 60 s."; exit 1; }
+  say "$OUTPUT: rviz.png, disparity.png, cloud.ply"
+else
+  say "$OUTPUT: disparity.png, cloud.ply. Close RViz or press Ctrl-C to end."
+  wait "${PIDS[0]}"
+fi
