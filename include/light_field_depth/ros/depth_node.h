@@ -1,0 +1,73 @@
+#ifndef LIGHT_FIELD_DEPTH_ROS_DEPTH_NODE_H
+#define LIGHT_FIELD_DEPTH_ROS_DEPTH_NODE_H
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <ros/steady_timer.h>
+#include <std_srvs/Empty.h>
+
+#include "light_field_depth/core/pipeline.h"
+#include "light_field_depth/ros/frame_queue.h"
+#include "light_field_depth/ros/light_field_assembler.h"
+#include "light_field_depth/ros/node_diagnostics.h"
+#include "light_field_depth/ros/node_parameters.h"
+#include "light_field_depth/ros/result_publisher.h"
+#include "light_field_depth/ros/settings.h"
+#include "light_field_depth/ros/view_input.h"
+
+namespace light_field_depth
+{
+/// Depth from an array of image topics: the whole node, in a nodelet manager or alone.
+///
+/// The callbacks of the node handle's queue only move pointers; one thread of its own works on whole sets of
+/// images. Bad input costs a frame and a sentence in the log, never the process.
+class DepthNode
+{
+public:
+  /// @throw InputError for parameters that cannot be used, before anything is advertised
+  DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle);
+
+  /// Cancels the frame in hand; returns soon, with nothing of this node running any more.
+  ~DepthNode();
+  DepthNode(const DepthNode&) = delete;
+  DepthNode& operator=(const DepthNode&) = delete;
+
+private:
+  void updateSubscriptions();
+  void watch(const ros::SteadyTimerEvent& event);
+  bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+
+  void workerLoop();
+  void processSafely(const FrameSet& set);
+  void process(const FrameSet& set, const Audience& audience);
+
+  const NodeParameters parameters_;
+  NodeDiagnostics diagnostics_;
+  SettingsServer settings_;
+  FrameQueue queue_;
+  ViewInput input_;
+  LightFieldAssembler assembler_;  ///< used by the worker alone
+  Pipeline pipeline_;              ///< used by the worker alone, but for cancel()
+
+  std::mutex subscription_mutex_;  ///< guards results_ while it is made, and who is subscribed to what
+  bool subscribed_ = false;
+  bool shutting_down_ = false;
+  std::unique_ptr<ResultPublisher> results_;
+
+  ros::ServiceServer reset_service_;
+  ros::SteadyTimer watch_timer_;
+  std::chrono::steady_clock::time_point silent_since_;  ///< used by watch() alone
+  ViewSynchronizerStatistics heard_before_;             ///< at silent_since_
+  std::thread worker_;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_ROS_DEPTH_NODE_H

@@ -1,0 +1,49 @@
+#ifndef LIGHT_FIELD_DEPTH_ROS_RESULT_MESSAGES_H
+#define LIGHT_FIELD_DEPTH_ROS_RESULT_MESSAGES_H
+
+#include <vector>
+
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+#include <stereo_msgs/DisparityImage.h>
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/estimator.h"
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/point_cloud.h"
+
+namespace light_field_depth
+{
+/// Results as messages: pure functions, no ROS master needed.
+
+/// The disparity of the reference view for any consumer of stereo disparities: the image holds d + d_inf, in
+/// pixels between adjacent views, so that Z = f T / value; min_disparity and max_disparity bound the valid
+/// values. Where the confidence is too low, or a point would lie at infinity or behind the camera, the value
+/// is min_disparity - 1. The valid window is the whole image.
+stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
+                                                const DisparityEstimate& estimate,
+                                                const Calibration& calibration, float min_confidence);
+
+/// A 32FC1 image. @param values CV_32FC1
+sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv::Mat& values);
+
+/// The disparity in colours (bgr8, blue is far, red is near, from the lowest to the highest of the range
+/// that was searched), for eyes only.
+sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header,
+                                            const DisparityEstimate& estimate);
+
+/// x y z rgb in 16 bytes a point; organised, with NaN, is_dense false.
+/// @param points size.area() of them, row-major
+sensor_msgs::PointCloud2Ptr organizedCloudMessage(const std_msgs::Header& header,
+                                                  const std::vector<ColoredPoint>& points,
+                                                  const cv::Size& size);
+
+/// The same, unorganised, is_dense true. @param points without NaN
+/// @throw InputError if the message would be larger than ROS transports (1e9 bytes)
+sensor_msgs::PointCloud2Ptr denseCloudMessage(const std_msgs::Header& header,
+                                              const std::vector<ColoredPoint>& points);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_ROS_RESULT_MESSAGES_H

@@ -1,0 +1,390 @@
+#include "light_field_depth/ros/calibration_from_camera_info.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "light_field_depth/core/error.h"
+
+namespace light_field_depth
+{
+namespace
+{
+// Entries of the projection matrix P, row by row.
+constexpr std::size_t FX = 0;
+constexpr std::size_t CX = 2;
+constexpr std::size_t TX = 3;
+constexpr std::size_t FY = 5;
+constexpr std::size_t CY = 6;
+constexpr std::size_t TY = 7;
+
+/// Rectified views share a focal length; rounding in calibration files stays far below this.
+constexpr double MAX_FOCAL_LENGTH_DIFFERENCE = 1e-3;
+/// A baseline given by hand that differs by more from the CameraInfo's deserves a warning.
+constexpr double MAX_BASELINE_DIFFERENCE = 1e-2;
+/// Positions nearer than this to one another are one place, in metres.
+constexpr double SAME_PLACE_M = 1e-9;
+/// A view that strays from its place in the grid by more than this share of a step deserves a warning.
+constexpr double MAX_GRID_DEVIATION = 0.5;
+
+std::string number(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string nameOf(const GridPosition& position)
+{
+  return "View " + toString(position);
+}
+
+void checkProjection(const GridPosition& position, const sensor_msgs::CameraInfo& info)
+{
+  for (std::size_t i = 0; i < info.P.size(); ++i)
+  {
+    if (!std::isfinite(info.P[i]))
+    {
+      throw InputError(nameOf(position) + ": P[" + std::to_string(i) + "] of its CameraInfo is " +
+                       number(info.P[i]) + "; publish a projection matrix of finite numbers.");
+    }
+  }
+  for (const std::size_t entry : {FX, FY})
+  {
+    if (info.P[entry] <= 0.0)
+    {
+      throw InputError(nameOf(position) + ": P[" + std::to_string(entry) +
+                       "] (the focal length) of its CameraInfo is " + number(info.P[entry]) +
+                       "; calibrate the camera, or publish the P of the rectified image.");
+    }
+  }
+}
+
+void checkFocalLength(const GridPosition& position, const sensor_msgs::CameraInfo& info, std::size_t entry,
+                      const GridPosition& reference_position, double reference_focal_length)
+{
+  if (std::abs(info.P[entry] - reference_focal_length) > MAX_FOCAL_LENGTH_DIFFERENCE * reference_focal_length)
+  {
+    throw InputError(nameOf(position) + ": P[" + std::to_string(entry) +
+                     "] (the focal length) of its CameraInfo is " + number(info.P[entry]) +
+                     " px, but P[0] of the reference view " + toString(reference_position) + " is " +
+                     number(reference_focal_length) +
+                     " px; rectify all views to one focal length with square pixels.");
+  }
+}
+
+void checkInfos(const std::vector<GridPosition>& grid, const std::vector<sensor_msgs::CameraInfo>& infos,
+                std::size_t reference)
+{
+  for (std::size_t i = 0; i < infos.size(); ++i)
+  {
+    checkProjection(grid[i], infos[i]);
+  }
+  const sensor_msgs::CameraInfo& first = infos[reference];
+  for (std::size_t i = 0; i < infos.size(); ++i)
+  {
+    checkFocalLength(grid[i], infos[i], FX, grid[reference], first.P[FX]);
+    checkFocalLength(grid[i], infos[i], FY, grid[reference], first.P[FX]);
+    if (infos[i].width != first.width || infos[i].height != first.height)
+    {
+      throw InputError(nameOf(grid[i]) + ": the size in its CameraInfo is " + std::to_string(infos[i].width) +
+                       " x " + std::to_string(infos[i].height) + ", but that of the reference view " +
+                       toString(grid[reference]) + " is " + std::to_string(first.width) + " x " +
+                       std::to_string(first.height) + "; rectify all views to one size.");
+    }
+  }
+}
+
+cv::Point2d positionOf(const sensor_msgs::CameraInfo& info)
+{
+  return {-info.P[TX] / info.P[FX], -info.P[TY] / info.P[FY]};
+}
+
+cv::Point2d principalPointOf(const sensor_msgs::CameraInfo& info)
+{
+  return {info.P[CX], info.P[CY]};
+}
+
+std::vector<cv::Point2d> positionsFrom(const std::vector<sensor_msgs::CameraInfo>& infos,
+                                       std::size_t reference)
+{
+  std::vector<cv::Point2d> positions;
+  for (const sensor_msgs::CameraInfo& info : infos)
+  {
+    positions.push_back(positionOf(info) - positionOf(infos[reference]));
+  }
+  return positions;
+}
+
+bool atOnePlace(const std::vector<cv::Point2d>& positions)
+{
+  return std::all_of(positions.begin(), positions.end(),
+                     [](const cv::Point2d& position)
+                     { return std::abs(position.x) + std::abs(position.y) < SAME_PLACE_M; });
+}
+
+/// The positions on an ideal grid with the baselines of the parameters.
+std::vector<cv::Point2d> positionsFrom(const std::vector<GridPosition>& grid, std::size_t reference,
+                                       const CalibrationParameters& parameters)
+{
+  const double x = parameters.baseline_x_m > 0.0 ? parameters.baseline_x_m : parameters.baseline_y_m;
+  const double y = parameters.baseline_y_m > 0.0 ? parameters.baseline_y_m : parameters.baseline_x_m;
+  std::vector<cv::Point2d> positions;
+  for (const GridPosition& position : grid)
+  {
+    positions.emplace_back(x * (position.column - grid[reference].column),
+                           y * (position.row - grid[reference].row));
+  }
+  return positions;
+}
+
+/// One axis of the grid: how to read a row (column) index and a position on it.
+struct Axis
+{
+  int GridPosition::*along;
+  int GridPosition::*across;
+  double cv::Point2d::*metres;
+  const char* index_name;
+  const char* entry_name;
+  const char* remedy;
+};
+constexpr Axis COLUMNS = {&GridPosition::column, &GridPosition::row,  &cv::Point2d::x, "column",
+                          "-P[3] / P[0]",        "from left to right"};
+constexpr Axis ROWS = {&GridPosition::row, &GridPosition::column, &cv::Point2d::y, "row",
+                       "-P[7] / P[5]",     "from top to bottom"};
+
+/// Metres for one step of the grid, between each view and the next one on its line.
+/// @throw InputError for two neighbours in the wrong order
+std::vector<double> neighbourSteps(const std::vector<GridPosition>& grid,
+                                   const std::vector<cv::Point2d>& positions, const Axis& axis)
+{
+  std::vector<std::size_t> order(grid.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    order[i] = i;
+  }
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b)
+            {
+              return grid[a].*axis.across != grid[b].*axis.across
+                         ? grid[a].*axis.across < grid[b].*axis.across
+                         : grid[a].*axis.along < grid[b].*axis.along;
+            });
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < order.size(); ++i)
+  {
+    const GridPosition& before = grid[order[i - 1]];
+    const GridPosition& after = grid[order[i]];
+    if (before.*axis.across != after.*axis.across)
+    {
+      continue;
+    }
+    const double from_m = positions[order[i - 1]].*axis.metres;
+    const double to_m = positions[order[i]].*axis.metres;
+    if (to_m <= from_m)
+    {
+      throw InputError(nameOf(after) + ": " + axis.entry_name + " of its CameraInfo places it at " +
+                       number(to_m) + " m, but view " + toString(before) + ", whose " + axis.index_name +
+                       " is lower, stands at " + number(from_m) + " m; number the " + axis.index_name +
+                       "s of the array " + axis.remedy + ", or correct P.");
+    }
+    steps.push_back((to_m - from_m) / (after.*axis.along - before.*axis.along));
+  }
+  return steps;
+}
+
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The baseline of adjacent views.
+double adjacentBaseline(const std::vector<GridPosition>& grid, const std::vector<cv::Point2d>& positions)
+{
+  const std::vector<double> in_rows = neighbourSteps(grid, positions, COLUMNS);
+  const std::vector<double> in_columns = neighbourSteps(grid, positions, ROWS);
+  if (!in_rows.empty())
+  {
+    return median(in_rows);
+  }
+  if (!in_columns.empty())
+  {
+    return median(in_columns);
+  }
+  throw InputError("No two of the " + std::to_string(grid.size()) +
+                   " views share a row or a column; name views that stand side by side.");
+}
+
+/// Change of the principal point for one step: the least squares fit of shift = steps * d_inf.
+double fitDisparityOffset(const std::vector<cv::Point2d>& steps, const std::vector<cv::Point2d>& shifts)
+{
+  double numerator = 0.0;
+  double denominator = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    numerator += steps[i].dot(shifts[i]);
+    denominator += steps[i].dot(steps[i]);
+  }
+  return numerator / denominator;
+}
+
+void warnOfOtherBaseline(double given_m, double found_m, const char* parameter,
+                         std::vector<std::string>& warnings)
+{
+  if (given_m > 0.0 && std::abs(given_m - found_m) > MAX_BASELINE_DIFFERENCE * found_m)
+  {
+    warnings.push_back(std::string(parameter) + " is " + number(given_m) + " m, but the CameraInfo of the " +
+                       "views says " + number(found_m) + " m; the CameraInfo is used. Remove the parameter " +
+                       "or correct one of them.");
+  }
+}
+
+/// A view far from its place is more often a swapped topic than a bent array.
+void warnOfStrayViews(const std::vector<GridPosition>& grid, std::size_t reference,
+                      const std::vector<ViewGeometry>& views, const cv::Point2d& unit,
+                      std::vector<std::string>& warnings)
+{
+  for (std::size_t i = 0; i < grid.size(); ++i)
+  {
+    const cv::Point2d expected(unit.x * (grid[i].column - grid[reference].column),
+                               unit.y * (grid[i].row - grid[reference].row));
+    const cv::Point2d deviation = views[i].steps - expected;
+    if (std::max(std::abs(deviation.x), std::abs(deviation.y)) > MAX_GRID_DEVIATION)
+    {
+      warnings.push_back(nameOf(grid[i]) + " stands " + number(deviation.x) + " steps to the right of and " +
+                         number(deviation.y) +
+                         " steps below its place in the grid; check that its topics and its P are its own.");
+    }
+  }
+}
+
+void checkCounts(std::size_t views, std::size_t infos, std::size_t reference)
+{
+  if (views < 2 || infos != views || reference >= views)
+  {
+    throw InputError(
+        "The calibration of an array needs at least two views with one CameraInfo each; there are " +
+        std::to_string(views) + " views and " + std::to_string(infos) + " CameraInfo messages.");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> validate(const CalibrationParameters& parameters)
+{
+  std::vector<std::string> problems;
+  const auto check = [&](double value, const char* name)
+  {
+    if (!std::isfinite(value) || value < 0.0)
+    {
+      problems.push_back(std::string(name) + " is " + number(value) +
+                         "; give a positive number, or 0 to leave it out.");
+    }
+  };
+  check(parameters.baseline_x_m, "baseline_x");
+  check(parameters.baseline_y_m, "baseline_y");
+  check(parameters.focal_length_px, "focal_length");
+  if (!std::isfinite(parameters.disparity_offset_px))
+  {
+    problems.emplace_back(
+        "disparity_offset is not a finite number of pixels; give one, or 0 for parallel cameras.");
+  }
+  return problems;
+}
+
+ArrayCalibration calibrationFromCameraInfo(const std::vector<GridPosition>& grid,
+                                           const std::vector<sensor_msgs::CameraInfo>& infos,
+                                           std::size_t reference, const CalibrationParameters& parameters)
+{
+  checkCounts(grid.size(), infos.size(), reference);
+  checkInfos(grid, infos, reference);
+  std::vector<cv::Point2d> positions = positionsFrom(infos, reference);
+  const bool from_parameters = atOnePlace(positions);
+  if (from_parameters && !parameters.hasBaseline())
+  {
+    throw InputError(nameOf(grid[reference]) +
+                     " and all others: P[3] and P[7] of the CameraInfo place them at one "
+                     "point; publish P[3] = -P[0] * (metres to the right) and P[7] = -P[5] * (metres "
+                     "down), or set baseline_x and baseline_y.");
+  }
+  if (from_parameters)
+  {
+    positions = positionsFrom(grid, reference, parameters);
+  }
+
+  ArrayCalibration result;
+  const double baseline_m = adjacentBaseline(grid, positions);
+  std::vector<cv::Point2d> steps;
+  std::vector<cv::Point2d> shifts;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+  {
+    steps.push_back(positions[i] / baseline_m);
+    shifts.push_back(principalPointOf(infos[i]) - principalPointOf(infos[reference]));
+  }
+  const double disparity_offset_px = fitDisparityOffset(steps, shifts);
+  for (std::size_t i = 0; i < grid.size(); ++i)
+  {
+    result.views.push_back({steps[i], shifts[i] - disparity_offset_px * steps[i]});
+  }
+  result.calibration.focal_length_px = infos[reference].P[FX];
+  result.calibration.principal_point_px = principalPointOf(infos[reference]);
+  result.calibration.baseline_m = baseline_m;
+  result.calibration.disparity_offset_px = disparity_offset_px;
+
+  const std::vector<double> in_columns = neighbourSteps(grid, positions, ROWS);
+  const double row_baseline_m = in_columns.empty() ? baseline_m : median(in_columns);
+  if (!from_parameters)
+  {
+    warnOfOtherBaseline(parameters.baseline_x_m, baseline_m, "baseline_x", result.warnings);
+    warnOfOtherBaseline(parameters.baseline_y_m, row_baseline_m, "baseline_y", result.warnings);
+  }
+  warnOfStrayViews(grid, reference, result.views, {1.0, row_baseline_m / baseline_m}, result.warnings);
+  return result;
+}
+
+ArrayCalibration calibrationFromParameters(const std::vector<GridPosition>& grid, std::size_t reference,
+                                           const CalibrationParameters& parameters,
+                                           const cv::Size& image_size)
+{
+  if (parameters.focal_length_px <= 0.0 || !parameters.hasBaseline())
+  {
+    throw InputError("Without CameraInfo, focal_length (" + number(parameters.focal_length_px) +
+                     " px) and baseline_x (" + number(parameters.baseline_x_m) +
+                     " m) must be positive; set both, or use the CameraInfo of the views.");
+  }
+  checkCounts(grid.size(), grid.size(), reference);
+  const std::vector<cv::Point2d> positions = positionsFrom(grid, reference, parameters);
+  ArrayCalibration result;
+  result.calibration.focal_length_px = parameters.focal_length_px;
+  result.calibration.principal_point_px = parameters.principal_point_px.value_or(
+      cv::Point2d(0.5 * (image_size.width - 1), 0.5 * (image_size.height - 1)));
+  result.calibration.baseline_m = adjacentBaseline(grid, positions);
+  result.calibration.disparity_offset_px = parameters.disparity_offset_px;
+  for (const cv::Point2d& position : positions)
+  {
+    result.views.push_back({position / result.calibration.baseline_m, {0.0, 0.0}});
+  }
+  return result;
+}
+
+sensor_msgs::CameraInfo cameraInfoFor(const View& view, const Calibration& calibration,
+                                      const cv::Size& image_size)
+{
+  const double f = calibration.focal_length_px;
+  const cv::Point2d c =
+      calibration.principal_point_px + view.steps * calibration.disparity_offset_px + view.offset_px;
+  const cv::Point2d position_m = view.steps * calibration.baseline_m;
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(image_size.width);
+  info.height = static_cast<std::uint32_t>(image_size.height);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  info.K = {f, 0.0, c.x, 0.0, f, c.y, 0.0, 0.0, 1.0};
+  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.P = {f, 0.0, c.x, -f * position_m.x, 0.0, f, c.y, -f * position_m.y, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
+}  // namespace light_field_depth

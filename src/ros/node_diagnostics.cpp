@@ -1,0 +1,139 @@
+#include "light_field_depth/ros/node_diagnostics.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/console.h>
+
+namespace light_field_depth
+{
+namespace
+{
+using diagnostic_msgs::DiagnosticStatus;
+
+/// The same sentence is not logged again sooner.
+constexpr std::chrono::seconds REPEAT_AFTER(10);
+
+}  // namespace
+
+NodeDiagnostics::NodeDiagnostics(const ros::NodeHandle& node_handle,
+                                 const ros::NodeHandle& private_node_handle)
+    : updater_(node_handle, private_node_handle, private_node_handle.getNamespace())
+{
+  updater_.setHardwareID("none");
+  updater_.add("input", this, &NodeDiagnostics::reportInput);
+  updater_.add("frames", this, &NodeDiagnostics::reportFrames);
+}
+
+void NodeDiagnostics::framePublished(double latency_ms)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++frames_published_;
+  last_latency_ms_ = latency_ms;
+  longest_latency_ms_ = std::max(longest_latency_ms_, latency_ms);
+  last_failure_.clear();
+  last_warning_.clear();
+}
+
+void NodeDiagnostics::frameFailed(const std::string& sentence)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++frames_failed_;
+  last_failure_ = sentence;
+  if (isNews(sentence))
+  {
+    ROS_ERROR_STREAM(sentence);
+  }
+}
+
+void NodeDiagnostics::warn(const std::string& sentence)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_warning_ = sentence;
+  if (isNews(sentence))
+  {
+    ROS_WARN_STREAM(sentence);
+  }
+}
+
+std::uint64_t NodeDiagnostics::framesPublished() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return frames_published_;
+}
+
+std::uint64_t NodeDiagnostics::framesFailed() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return frames_failed_;
+}
+
+void NodeDiagnostics::update(const ViewSynchronizerStatistics& input, std::uint64_t frames_dropped,
+                             bool listening)
+{
+  input_ = input;
+  frames_dropped_ = frames_dropped;
+  listening_ = listening;
+  updater_.update();
+}
+
+bool NodeDiagnostics::isNews(const std::string& sentence)
+{
+  const auto now = std::chrono::steady_clock::now();
+  if (sentence == last_logged_ && now - last_logged_at_ < REPEAT_AFTER)
+  {
+    return false;
+  }
+  last_logged_ = sentence;
+  last_logged_at_ = now;
+  return true;
+}
+
+void NodeDiagnostics::reportInput(diagnostic_updater::DiagnosticStatusWrapper& status)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!listening_)
+  {
+    status.summary(DiagnosticStatus::OK, "Nobody listens.");
+  }
+  else if (!last_warning_.empty())
+  {
+    status.summary(DiagnosticStatus::WARN, last_warning_);
+  }
+  else
+  {
+    status.summary(DiagnosticStatus::OK, "Receiving.");
+  }
+  status.add("whole sets", input_.sets_complete);
+  status.add("incomplete sets", input_.sets_dropped);
+  status.add("jumps back in time", input_.time_jumps);
+  const auto worst =
+      std::max_element(input_.views.begin(), input_.views.end(),
+                       [](const ViewCounts& a, const ViewCounts& b) { return a.missing < b.missing; });
+  if (worst != input_.views.end() && worst->missing > 0)
+  {
+    status.add("most often missing, index of the view", worst - input_.views.begin());
+    status.add("most often missing, times", worst->missing);
+  }
+}
+
+void NodeDiagnostics::reportFrames(diagnostic_updater::DiagnosticStatusWrapper& status)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (last_failure_.empty())
+  {
+    status.summary(DiagnosticStatus::OK, "Working.");
+  }
+  else
+  {
+    status.summary(DiagnosticStatus::ERROR, last_failure_);
+  }
+  status.add("published", frames_published_);
+  status.add("failed", frames_failed_);
+  status.add("replaced by newer ones", frames_dropped_);
+  status.add("latency of the last, ms", last_latency_ms_);
+  status.add("longest latency, ms", longest_latency_ms_);
+}
+
+}  // namespace light_field_depth

@@ -1,0 +1,172 @@
+#include "light_field_depth/ros/result_messages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include <sensor_msgs/image_encodings.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <boost/endian/conversion.hpp>
+#include <boost/make_shared.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "light_field_depth/core/error.h"
+
+namespace light_field_depth
+{
+namespace
+{
+/// Sub-pixel fits resolve about this much; stereo_msgs asks for the smallest step between two disparities.
+constexpr float DISPARITY_RESOLUTION_PX = 1.0F / 32.0F;
+/// roscpp drops connections over larger messages.
+constexpr std::size_t MAX_MESSAGE_BYTES = 1000000000;
+
+bool hostIsBigEndian()
+{
+  return boost::endian::order::native == boost::endian::order::big;
+}
+
+/// An image message of the size and type, its bytes not set.
+void shape(sensor_msgs::Image& image, const std_msgs::Header& header, const cv::Size& size,
+           const std::string& encoding, int type)
+{
+  image.header = header;
+  image.width = static_cast<std::uint32_t>(size.width);
+  image.height = static_cast<std::uint32_t>(size.height);
+  image.encoding = encoding;
+  image.is_bigendian = hostIsBigEndian() ? 1 : 0;
+  image.step = static_cast<std::uint32_t>(size.width * CV_ELEM_SIZE(type));
+  image.data.resize(static_cast<std::size_t>(image.step) * image.height);
+}
+
+cv::Mat pixelsOf(sensor_msgs::Image& image, int type)
+{
+  return {static_cast<int>(image.height), static_cast<int>(image.width), type, image.data.data(), image.step};
+}
+
+struct Bounds
+{
+  float min = std::numeric_limits<float>::max();
+  float max = std::numeric_limits<float>::lowest();
+};
+
+/// Writes d + d_inf where it is valid, NaN elsewhere; returns the bounds of what is valid.
+Bounds writeAbsoluteDisparity(const DisparityEstimate& estimate, float offset_px, float min_confidence,
+                              cv::Mat& absolute)
+{
+  Bounds bounds;
+  for (int y = 0; y < absolute.rows; ++y)
+  {
+    const float* const disparity = estimate.disparity.ptr<float>(y);
+    const float* const confidence = estimate.confidence.ptr<float>(y);
+    float* const out = absolute.ptr<float>(y);
+    for (int x = 0; x < absolute.cols; ++x)
+    {
+      const float value = disparity[x] + offset_px;
+      const bool valid = confidence[x] >= min_confidence && std::isfinite(value) && value > 0.0F;
+      out[x] = valid ? value : std::numeric_limits<float>::quiet_NaN();
+      if (valid)
+      {
+        bounds.min = std::min(bounds.min, value);
+        bounds.max = std::max(bounds.max, value);
+      }
+    }
+  }
+  return bounds;
+}
+
+sensor_msgs::PointCloud2Ptr cloudMessage(const std_msgs::Header& header,
+                                         const std::vector<ColoredPoint>& points, std::uint32_t width,
+                                         std::uint32_t height, bool is_dense)
+{
+  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
+  cloud->header = header;
+  sensor_msgs::PointCloud2Modifier modifier(*cloud);
+  using sensor_msgs::PointField;
+  // "rgb" is a float by name only; its bytes are b, g, r, 0.
+  modifier.setPointCloud2Fields(4, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
+                                PointField::FLOAT32, "rgb", 1, PointField::FLOAT32);
+  cloud->is_bigendian = hostIsBigEndian();
+  cloud->is_dense = is_dense;
+  cloud->width = width;
+  cloud->height = height;
+  cloud->row_step = cloud->point_step * width;
+  cloud->data.resize(static_cast<std::size_t>(cloud->row_step) * height);
+  if (!points.empty())
+  {
+    std::memcpy(cloud->data.data(), points.data(), cloud->data.size());
+  }
+  return cloud;
+}
+
+}  // namespace
+
+stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
+                                                const DisparityEstimate& estimate,
+                                                const Calibration& calibration, float min_confidence)
+{
+  const auto message = boost::make_shared<stereo_msgs::DisparityImage>();
+  const cv::Size size = estimate.disparity.size();
+  message->header = header;
+  shape(message->image, header, size, sensor_msgs::image_encodings::TYPE_32FC1, CV_32FC1);
+  message->f = static_cast<float>(calibration.focal_length_px);
+  message->T = static_cast<float>(calibration.baseline_m);
+  message->delta_d = DISPARITY_RESOLUTION_PX;
+  message->valid_window.width = message->image.width;
+  message->valid_window.height = message->image.height;
+
+  const auto offset_px = static_cast<float>(calibration.disparity_offset_px);
+  cv::Mat absolute = pixelsOf(message->image, CV_32FC1);
+  const Bounds bounds = writeAbsoluteDisparity(estimate, offset_px, min_confidence, absolute);
+  // The searched range counts where it is wider than what was found, but never down to infinite depth.
+  const float range_min = std::max(estimate.range.min + offset_px, DISPARITY_RESOLUTION_PX);
+  message->min_disparity = std::min(bounds.min, range_min);
+  message->max_disparity = std::max({bounds.max, estimate.range.max + offset_px, message->min_disparity});
+  cv::patchNaNs(absolute, message->min_disparity - 1.0F);
+  return message;
+}
+
+sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv::Mat& values)
+{
+  const auto message = boost::make_shared<sensor_msgs::Image>();
+  shape(*message, header, values.size(), sensor_msgs::image_encodings::TYPE_32FC1, CV_32FC1);
+  cv::Mat pixels = pixelsOf(*message, CV_32FC1);
+  values.copyTo(pixels);
+  return message;
+}
+
+sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header, const DisparityEstimate& estimate)
+{
+  const auto message = boost::make_shared<sensor_msgs::Image>();
+  shape(*message, header, estimate.disparity.size(), sensor_msgs::image_encodings::BGR8, CV_8UC3);
+  const double scale = 255.0 / std::max(1e-6F, estimate.range.max - estimate.range.min);
+  cv::Mat levels;
+  estimate.disparity.convertTo(levels, CV_8UC1, scale, -scale * estimate.range.min);
+  cv::Mat pixels = pixelsOf(*message, CV_8UC3);
+  cv::applyColorMap(levels, pixels, cv::COLORMAP_TURBO);
+  return message;
+}
+
+sensor_msgs::PointCloud2Ptr organizedCloudMessage(const std_msgs::Header& header,
+                                                  const std::vector<ColoredPoint>& points,
+                                                  const cv::Size& size)
+{
+  return cloudMessage(header, points, static_cast<std::uint32_t>(size.width),
+                      static_cast<std::uint32_t>(size.height), false);
+}
+
+sensor_msgs::PointCloud2Ptr denseCloudMessage(const std_msgs::Header& header,
+                                              const std::vector<ColoredPoint>& points)
+{
+  if (points.size() * sizeof(ColoredPoint) > MAX_MESSAGE_BYTES)
+  {
+    throw InputError("The dense cloud has " + std::to_string(points.size()) +
+                     " points, which are more bytes than ROS transports in a message; raise "
+                     "dense_cloud_voxel_size_m or dense_cloud_min_confidence.");
+  }
+  return cloudMessage(header, points, static_cast<std::uint32_t>(points.size()), 1, true);
+}
+
+}  // namespace light_field_depth

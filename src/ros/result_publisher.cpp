@@ -1,0 +1,126 @@
+#include "light_field_depth/ros/result_publisher.h"
+
+#include <sensor_msgs/PointCloud2.h>
+#include <stereo_msgs/DisparityImage.h>
+#include <boost/make_shared.hpp>
+
+#include "light_field_depth/ros/result_messages.h"
+
+namespace light_field_depth
+{
+namespace
+{
+/// Results are newest-wins as the input is.
+constexpr std::uint32_t QUEUE_SIZE = 1;
+
+template <class Message>
+ros::Publisher advertise(ros::NodeHandle node_handle, const std::string& topic,
+                         const std::function<void()>& on_change)
+{
+  const ros::SubscriberStatusCallback callback = [on_change](const ros::SingleSubscriberPublisher&)
+  { on_change(); };
+  return node_handle.advertise<Message>(topic, QUEUE_SIZE, callback, callback);
+}
+
+image_transport::Publisher advertiseImage(image_transport::ImageTransport& transport,
+                                          const std::string& topic, const std::function<void()>& on_change)
+{
+  const image_transport::SubscriberStatusCallback callback =
+      [on_change](const image_transport::SingleSubscriberPublisher&) { on_change(); };
+  return transport.advertise(topic, QUEUE_SIZE, callback, callback);
+}
+
+/// The reference view's CameraInfo as that of the results: no baseline to itself.
+sensor_msgs::CameraInfoPtr referenceInfo(const std_msgs::Header& header, const sensor_msgs::CameraInfo& info)
+{
+  const auto result = boost::make_shared<sensor_msgs::CameraInfo>(info);
+  result->header = header;
+  result->P[3] = 0.0;
+  result->P[7] = 0.0;
+  return result;
+}
+
+}  // namespace
+
+ResultPublisher::ResultPublisher(const ros::NodeHandle& private_node_handle,
+                                 const std::function<void()>& on_audience_changed)
+    : image_transport_(private_node_handle), disparity_(advertise<stereo_msgs::DisparityImage>(
+                                                 private_node_handle, "disparity", on_audience_changed)),
+      disparity_color_(advertiseImage(image_transport_, "disparity_color", on_audience_changed)),
+      depth_(advertiseImage(image_transport_, "depth", on_audience_changed)),
+      confidence_(advertiseImage(image_transport_, "confidence", on_audience_changed)),
+      points2_(advertise<sensor_msgs::PointCloud2>(private_node_handle, "points2", on_audience_changed)),
+      points_dense_(
+          advertise<sensor_msgs::PointCloud2>(private_node_handle, "points_dense", on_audience_changed)),
+      camera_info_(
+          advertise<sensor_msgs::CameraInfo>(private_node_handle, "camera_info", on_audience_changed)),
+      stats_(advertise<LightFieldDepthStats>(private_node_handle, "stats", on_audience_changed))
+{
+}
+
+Audience ResultPublisher::audience() const
+{
+  Audience audience;
+  audience.disparity = disparity_.getNumSubscribers() > 0;
+  audience.disparity_color = disparity_color_.getNumSubscribers() > 0;
+  audience.depth = depth_.getNumSubscribers() > 0;
+  audience.confidence = confidence_.getNumSubscribers() > 0;
+  audience.points2 = points2_.getNumSubscribers() > 0;
+  audience.points_dense = points_dense_.getNumSubscribers() > 0;
+  audience.camera_info = camera_info_.getNumSubscribers() > 0;
+  audience.stats = stats_.getNumSubscribers() > 0;
+  return audience;
+}
+
+void ResultPublisher::publish(const std_msgs::Header& header, const Audience& audience,
+                              const LightField& light_field, const PipelineResult& result,
+                              float min_confidence, const sensor_msgs::CameraInfoConstPtr& info) const
+{
+  if (audience.camera_info && info != nullptr)
+  {
+    camera_info_.publish(referenceInfo(header, *info));
+  }
+  if (audience.disparity)
+  {
+    disparity_.publish(disparityMessage(header, result.estimate, *light_field.calibration, min_confidence));
+  }
+  if (audience.disparity_color)
+  {
+    disparity_color_.publish(disparityColorMessage(header, result.estimate));
+  }
+  if (audience.depth)
+  {
+    depth_.publish(floatImageMessage(header, result.depth));
+  }
+  if (audience.confidence)
+  {
+    confidence_.publish(floatImageMessage(header, result.estimate.confidence));
+  }
+  if (audience.points2)
+  {
+    points2_.publish(organizedCloudMessage(header, result.organized_cloud, light_field.size()));
+  }
+  if (audience.points_dense)
+  {
+    points_dense_.publish(denseCloudMessage(header, result.dense_cloud));
+  }
+}
+
+void ResultPublisher::publish(const LightFieldDepthStats& stats) const
+{
+  stats_.publish(stats);
+}
+
+void ResultPublisher::shutdown()
+{
+  disparity_.shutdown();
+  disparity_color_.shutdown();
+  depth_.shutdown();
+  confidence_.shutdown();
+  points2_.shutdown();
+  points_dense_.shutdown();
+  camera_info_.shutdown();
+  stats_.shutdown();
+}
+
+}  // namespace light_field_depth

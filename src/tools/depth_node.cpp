@@ -1,0 +1,24 @@
+#include <cstdlib>
+#include <exception>
+
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/node_handle.h>
+
+#include "light_field_depth/ros/depth_node.h"
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "light_field_depth");
+  try
+  {
+    const light_field_depth::DepthNode node(ros::NodeHandle(), ros::NodeHandle("~"));
+    ros::spin();
+  }
+  catch (const std::exception& error)
+  {
+    ROS_FATAL_STREAM(error.what());
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}
