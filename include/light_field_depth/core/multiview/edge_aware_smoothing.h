@@ -1,0 +1,50 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_EDGE_AWARE_SMOOTHING_H
+#define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_EDGE_AWARE_SMOOTHING_H
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/multiview/view_set.h"
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth::multiview
+{
+struct SmoothingSettings
+{
+  float strength = 900.0F;         ///< alpha, against the curvature of the data
+  float image_edge_decay = 40.0F;  ///< kappa: links weaken by exp(-kappa * change of colour / 765)
+  float flat_px = 0.015F;          ///< eps: changes of the disparity above this are charged linearly
+  int reweightings = 2;
+  int sweeps = 2;
+};
+
+/// Minimises  sum_p w_p (d_p - t_p)^2 + sum_pq s_pq(d) (d_p - d_q)^2  over 4-neighbours by reweighted
+/// least squares, lines solved exactly, rows and columns in turn. Keeps its memory; one call at a time.
+class EdgeAwareSmoother
+{
+public:
+  /// Computes the part of the links that the image decides.
+  void setGuide(const PlanarImage& guide, const SmoothingSettings& settings, ThreadPool& pool);
+
+  /// @param weight, target CV_32FC1  @param disparity CV_32FC1: start and result
+  void run(const cv::Mat& weight, const cv::Mat& target, const SmoothingSettings& settings, ThreadPool& pool,
+           cv::Mat& disparity);
+
+private:
+  void updateLinks(const SmoothingSettings& settings, const cv::Mat& disparity, ThreadPool& pool);
+  void solveRows(const cv::Mat& weight, const cv::Mat& target, int parity, ThreadPool& pool,
+                 cv::Mat& disparity) const;
+  void solveColumns(const cv::Mat& weight, const cv::Mat& target, ThreadPool& pool, cv::Mat& disparity);
+
+  cv::Mat guide_left_;   // link strength between (x - 1, y) and (x, y) from the image
+  cv::Mat guide_above_;  // between (x, y - 1) and (x, y)
+  cv::Mat link_left_;    // with the disparity's part
+  cv::Mat link_above_;
+  cv::Mat elimination_;
+  cv::Mat solution_;
+};
+
+}  // namespace light_field_depth::multiview
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_EDGE_AWARE_SMOOTHING_H

@@ -1,0 +1,49 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_PATH_AGGREGATION_H
+#define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_PATH_AGGREGATION_H
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/multiview/cost_volume.h"
+#include "light_field_depth/core/multiview/view_set.h"
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth::multiview
+{
+/// Smoothness along the paths, in the units of FULL_COST.
+struct PathSettings
+{
+  int small_step = 30;            ///< P1, for a change by one label
+  int large_step = 1200;          ///< P2 for larger changes where the image does not change at all
+  float large_step_floor = 1.5F;  ///< P2 never falls below this many P1
+};
+
+/// Adds up the costs along the paths from the left, right, top and bottom, and takes the best label.
+class PathAggregator
+{
+public:
+  /// @param guide image whose edges lower P2: P2 = max(floor * P1, large_step / (1 + |change of colour|))
+  /// @param label CV_32FC1, sub-label position
+  void aggregate(const CostVolume& volume, const PlanarImage& guide, const PathSettings& settings,
+                 ThreadPool& pool, cv::Mat& label);
+
+private:
+  void prepareSteps(const PlanarImage& guide, const PathSettings& settings, ThreadPool& pool);
+  void aggregateRows(const CostVolume& volume, const PathSettings& settings, ThreadPool& pool);
+  void aggregateColumns(const CostVolume& volume, const PathSettings& settings, ThreadPool& pool,
+                        cv::Mat& label);
+
+  std::vector<std::uint16_t> sums_;        // [y][x][label], as the volume
+  std::vector<std::uint16_t> step_left_;   // P2 between (x - 1, y) and (x, y)
+  std::vector<std::uint16_t> step_above_;  // P2 between (x, y - 1) and (x, y)
+  std::vector<std::uint16_t> states_;      // one slice a chunk
+  std::vector<std::uint16_t> minima_;
+};
+
+}  // namespace light_field_depth::multiview
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_PATH_AGGREGATION_H

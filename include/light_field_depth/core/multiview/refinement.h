@@ -1,0 +1,56 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_REFINEMENT_H
+#define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_REFINEMENT_H
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/multiview/view_set.h"
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth::multiview
+{
+/// Where the quadratic approximation of the matching error of all views has its minimum.
+struct Linearization
+{
+  cv::Mat weight;    ///< CV_32FC1, curvature of the error: how well the images fix the disparity
+  cv::Mat target;    ///< CV_32FC1, disparity of the minimum
+  cv::Mat residual;  ///< CV_32FC1, mean absolute difference of the views to the reference, three channels
+};
+
+struct LinearizationSettings
+{
+  float max_step_px = 0.15F;     ///< the approximation holds for small steps only
+  float max_weight = 400.0F;     ///< of one pixel, so that strong texture does not outvote all smoothness
+  bool brightness_slope = true;  ///< allow brightness that changes linearly with the position of the view
+  int window_radius = 2;         ///< pixels that share one step
+};
+
+/// Linearises the difference of every view to the reference about the present disparity. Views of one arm
+/// that fit badly lose their weight. Keeps its scratch memory; one call at a time.
+class Linearizer
+{
+public:
+  Linearizer();
+  ~Linearizer();
+
+  /// @param disparity CV_32FC1, finite
+  void run(const ViewSet& views, const cv::Mat& disparity, const LinearizationSettings& settings,
+           ThreadPool& pool, Linearization& result);
+
+private:
+  struct Scratch;
+  class Band;
+  std::unique_ptr<Scratch> takeScratch();
+  void giveBack(std::unique_ptr<Scratch> scratch);
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Scratch>> free_scratch_;
+};
+
+}  // namespace light_field_depth::multiview
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_REFINEMENT_H

@@ -1,0 +1,25 @@
+#include "light_field_depth/core/multiview/label_space.h"
+
+#include <cmath>
+
+namespace light_field_depth::multiview
+{
+LabelSpace makeLabelSpace(const DisparityRange& range, float step_px, int max_labels)
+{
+  LabelSpace labels;
+  labels.step_px = step_px;
+  for (;;)
+  {
+    const double first = std::floor(range.min / labels.step_px);
+    const double last = std::ceil(range.max / labels.step_px);
+    labels.count = static_cast<int>(last - first) + 1;
+    labels.first_px = static_cast<float>(first * labels.step_px);
+    if (labels.count <= max_labels)
+    {
+      return labels;
+    }
+    labels.step_px *= 2.0F;
+  }
+}
+
+}  // namespace light_field_depth::multiview

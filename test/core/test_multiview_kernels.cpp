@@ -1,0 +1,324 @@
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "light_field_depth/core/multiview/cost_kernels.h"
+#include "light_field_depth/core/multiview/linearize_kernels.h"
+#include "light_field_depth/core/multiview/path_kernels.h"
+#include "light_field_depth/core/multiview/sample_rows.h"
+
+namespace light_field_depth::multiview
+{
+namespace
+{
+constexpr int WIDTH = 203;  // no multiple of any vector
+constexpr std::size_t STRIDE = 320;
+
+class Random
+{
+public:
+  std::vector<std::uint8_t> bytes(std::size_t count, int limit = 256)
+  {
+    std::vector<std::uint8_t> values(count);
+    for (auto& value : values)
+    {
+      value = static_cast<std::uint8_t>(std::uniform_int_distribution<int>(0, limit - 1)(engine_));
+    }
+    return values;
+  }
+  std::vector<float> floats(std::size_t count, float low, float high)
+  {
+    std::vector<float> values(count);
+    for (auto& value : values)
+    {
+      value = std::uniform_real_distribution<float>(low, high)(engine_);
+    }
+    return values;
+  }
+
+private:
+  std::mt19937 engine_{7};
+};
+
+template <typename Values>
+Values firstPart(const Values& values, std::size_t count)
+{
+  return Values(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+TEST(MultiviewKernels, InterpolationEqualsThePlainVersion)
+{
+  Random random;
+  const auto row = random.bytes(STRIDE);
+  for (int phase = 0; phase < SUBPIXEL_PHASES; ++phase)
+  {
+    const std::array<const std::uint8_t*, 4> taps = {row.data(), row.data() + 1, row.data() + 2,
+                                                     row.data() + 3};
+    std::vector<std::uint8_t> simd(STRIDE);
+    std::vector<std::uint8_t> plain(STRIDE);
+    interpolateTaps(taps, phase, WIDTH, simd.data());
+    interpolateTapsPlain(taps, phase, WIDTH, plain.data());
+    EXPECT_EQ(firstPart(simd, WIDTH), firstPart(plain, WIDTH)) << "phase " << phase;
+  }
+}
+
+TEST(MultiviewKernels, InterpolationKeepsARamp)
+{
+  std::vector<std::uint8_t> row(STRIDE);
+  for (std::size_t i = 0; i < row.size(); ++i)
+  {
+    row[i] = static_cast<std::uint8_t>(i % 64 * 4);
+  }
+  std::vector<std::uint8_t> values(STRIDE);
+  interpolateTaps({row.data(), row.data() + 1, row.data() + 2, row.data() + 3}, SUBPIXEL_PHASES / 4, 50,
+                  values.data());
+  for (std::size_t i = 0; i < 50; ++i)
+  {
+    EXPECT_EQ(values[i], row[i + 1] + 1) << i;  // a quarter of the slope of 4
+  }
+}
+
+struct Views
+{
+  explicit Views(std::size_t count, Random& random) : reference(random.bytes(3 * STRIDE, 60))
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      samples.push_back(random.bytes(3 * STRIDE, 60));
+      surfaces.push_back(random.bytes(STRIDE, 60));
+      sample_rows.push_back(samples.back().data());
+      surface_rows.push_back(surfaces.back().data());
+    }
+  }
+  std::vector<std::uint8_t> reference;
+  std::vector<std::vector<std::uint8_t>> samples;
+  std::vector<std::vector<std::uint8_t>> surfaces;
+  std::vector<const std::uint8_t*> sample_rows;
+  std::vector<const std::uint8_t*> surface_rows;
+};
+
+TEST(MultiviewKernels, ArmCostEqualsThePlainVersion)
+{
+  struct Case
+  {
+    std::vector<Arm> arms;
+    int best_arms;
+    int channels;
+  };
+  const std::vector<Case> cases = {
+      {{{0, 1, 0}}, 1, 3},
+      {{{0, 4, 0}, {4, 8, 2}, {8, 12, 4}, {12, 16, 6}}, 2, 3},
+      {{{0, 4, 0}, {4, 7, 2}, {7, 12, 4}, {12, 14, 6}}, 2, 1},
+      {{{0, 1, 0}, {1, 2, 1}, {2, 3, 2}, {3, 4, 3}, {4, 5, 4}, {5, 6, 5}, {6, 7, 6}, {7, 8, 7}}, 4, 3},
+  };
+  for (const Case& test : cases)
+  {
+    Random random;
+    const Views views(16, random);
+    std::vector<std::uint16_t> scales;
+    for (const Arm& arm : test.arms)
+    {
+      scales.push_back(static_cast<std::uint16_t>(240 * 256 / (30 * (arm.last - arm.first))));
+    }
+    ArmCostRow row;
+    row.reference = views.reference.data();
+    row.reference_stride = STRIDE;
+    row.samples = views.sample_rows.data();
+    row.sample_stride = STRIDE;
+    row.channels = test.channels;
+    row.width = WIDTH;
+    row.arms = test.arms.data();
+    row.arm_count = static_cast<int>(test.arms.size());
+    row.best_arms = test.best_arms;
+    row.arm_scales = scales.data();
+    std::vector<std::uint8_t> simd(STRIDE);
+    std::vector<std::uint8_t> plain(STRIDE);
+    armCostRow(row, simd.data());
+    armCostRowPlain(row, plain.data());
+    EXPECT_EQ(firstPart(simd, WIDTH), firstPart(plain, WIDTH)) << test.arms.size() << " arms";
+  }
+}
+
+TEST(MultiviewKernels, VisibleCostEqualsThePlainVersion)
+{
+  for (const int truncation : {20, 30, 60})
+  {
+    for (const int hidden_above : {0, 10, 40})
+    {
+      Random random;
+      const Views views(16, random);
+      VisibleCostRow row;
+      row.reference = views.reference.data();
+      row.reference_stride = STRIDE;
+      row.samples = views.sample_rows.data();
+      row.sample_stride = STRIDE;
+      row.surfaces = views.surface_rows.data();
+      row.views = 16;
+      row.width = WIDTH;
+      row.truncation = truncation;
+      row.hidden_above = hidden_above;
+      row.unseen_penalty = 20;
+      std::vector<std::uint8_t> simd(STRIDE);
+      std::vector<std::uint8_t> plain(STRIDE);
+      visibleCostRow(row, simd.data());
+      visibleCostRowPlain(row, plain.data());
+      EXPECT_EQ(firstPart(simd, WIDTH), firstPart(plain, WIDTH)) << truncation << ", " << hidden_above;
+    }
+  }
+}
+
+TEST(MultiviewKernels, TransposedCostsEqualThePlainVersion)
+{
+  Random random;
+  const int labels = 48;
+  const int width = 64;
+  const auto cost = random.bytes(labels * STRIDE);
+  std::vector<std::uint8_t> simd(static_cast<std::size_t>(labels * width));
+  std::vector<std::uint8_t> plain(simd.size());
+  transposeCosts(cost.data(), STRIDE, labels, width, simd.data());
+  transposeCostsPlain(cost.data(), STRIDE, labels, width, plain.data());
+  EXPECT_EQ(simd, plain);
+  EXPECT_EQ(simd[5 * labels + 7], cost[7 * STRIDE + 5]);
+}
+
+struct Paths
+{
+  explicit Paths(int pitch, Random& random)
+      : cost(random.bytes(static_cast<std::size_t>(WIDTH * pitch), 241)), p2(WIDTH)
+  {
+    for (std::size_t x = 0; x < p2.size(); ++x)
+    {
+      p2[x] = static_cast<std::uint16_t>(45 + x * 5 % 1150);
+    }
+    row.cost = cost.data();
+    row.width = WIDTH;
+    row.pitch = pitch;
+    row.p1 = 30;
+    row.p2 = p2.data();
+  }
+  std::vector<std::uint8_t> cost;
+  std::vector<std::uint16_t> p2;
+  PathRow row;
+};
+
+TEST(MultiviewKernels, RowAggregationEqualsThePlainVersion)
+{
+  for (const int width : {WIDTH, WIDTH - 1})
+  {
+    for (const int pitch : {16, 64})
+    {
+      Random random;
+      Paths paths(pitch, random);
+      paths.row.width = width;
+      std::vector<std::uint16_t> states(static_cast<std::size_t>(4 * (pitch + 2 * STATE_GUARD)),
+                                        STATE_GUARD_VALUE);
+      auto plain_states = states;
+      std::vector<std::uint16_t> simd(paths.cost.size());
+      std::vector<std::uint16_t> plain(paths.cost.size());
+      paths.row.sums = simd.data();
+      aggregateRow(paths.row, states.data());
+      paths.row.sums = plain.data();
+      aggregateRowPlain(paths.row, plain_states.data());
+      EXPECT_EQ(simd, plain) << "width " << width << ", pitch " << pitch;
+    }
+  }
+}
+
+TEST(MultiviewKernels, ColumnAggregationEqualsThePlainVersion)
+{
+  constexpr int pitch = 32;
+  constexpr int labels = 27;
+  Random random;
+  Paths paths(pitch, random);
+  for (std::size_t i = 0; i < paths.cost.size(); ++i)
+  {
+    paths.cost[i] = i % pitch < labels ? paths.cost[i] : PADDING_COST;
+  }
+  const std::size_t state_size = static_cast<std::size_t>(WIDTH) * (pitch + 2 * STATE_GUARD);
+  std::array<std::vector<std::uint16_t>, 2> simd_states;
+  simd_states.fill(std::vector<std::uint16_t>(state_size, STATE_GUARD_VALUE));
+  auto plain_states = simd_states;
+  std::vector<std::uint16_t> simd_minima(WIDTH);
+  std::vector<std::uint16_t> plain_minima(WIDTH);
+  std::vector<std::uint16_t> simd(paths.cost.size(), 3);
+  auto plain = simd;
+  for (std::size_t step = 0; step < 3; ++step)
+  {
+    const std::size_t after = (step + 1) % 2;
+    paths.row.sums = simd.data();
+    aggregateStep(paths.row, step == 0, simd_states[step % 2].data(), simd_states[after].data(),
+                  simd_minima.data());
+    paths.row.sums = plain.data();
+    aggregateStepPlain(paths.row, step == 0, plain_states[step % 2].data(), plain_states[after].data(),
+                       plain_minima.data());
+  }
+  EXPECT_EQ(simd, plain);
+  EXPECT_EQ(simd_minima, plain_minima);
+  std::vector<float> simd_best(WIDTH);
+  std::vector<float> plain_best(WIDTH);
+  selectLabels(simd.data(), WIDTH, labels, pitch, simd_best.data());
+  selectLabelsPlain(plain.data(), WIDTH, labels, pitch, plain_best.data());
+  EXPECT_EQ(simd_best, plain_best);
+}
+
+TEST(MultiviewKernels, LinearizationEqualsThePlainVersion)
+{
+  struct Case
+  {
+    float step_x;
+    float step_y;
+    float offset_x;
+    int channels;
+  };
+  const std::vector<Case> cases = {{3.0F, 0.0F, 0.0F, 3},
+                                   {0.0F, -2.0F, 0.0F, 3},
+                                   {1.5F, -1.0F, 0.3F, 3},
+                                   {-4.0F, 0.0F, 0.0F, 1},
+                                   {1.0F, 1.0F, 0.0F, 1}};
+  constexpr int height = 24;
+  for (const Case& test : cases)
+  {
+    Random random;
+    const int pixel_stride = test.channels == 3 ? 4 : 1;
+    const auto pixels = random.bytes(static_cast<std::size_t>((height + 1) * WIDTH * pixel_stride));
+    const auto reference = random.bytes(3 * STRIDE);
+    const auto disparity = random.floats(STRIDE, -3.0F, 3.0F);
+    LinearizeRow row;
+    row.pixels = pixels.data();
+    row.pixel_stride = pixel_stride;
+    row.row_stride = WIDTH * pixel_stride;
+    row.width = WIDTH;
+    row.height = height;
+    row.channels = test.channels;
+    row.reference = reference.data();
+    row.reference_stride = STRIDE;
+    row.disparity = disparity.data();
+    row.y = 3;
+    row.step_x = test.step_x;
+    row.step_y = test.step_y;
+    row.offset_x = test.offset_x;
+    row.position = 2.0F;
+    row.moment_stride = STRIDE;
+    std::vector<float> simd(MOMENTS * STRIDE, 1.0F);
+    auto plain = simd;
+    row.moments = simd.data();
+    linearizeRow(row);
+    row.moments = plain.data();
+    linearizeRowPlain(row);
+    for (std::size_t moment = 0; moment < MOMENTS; ++moment)
+    {
+      for (std::size_t x = 0; x < WIDTH; ++x)
+      {
+        ASSERT_EQ(simd[moment * STRIDE + x], plain[moment * STRIDE + x])
+            << "moment " << moment << " at " << x << ", step " << test.step_x << ", " << test.step_y;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace light_field_depth::multiview
