@@ -14,8 +14,9 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr std::array<std::pair<Method, const char*>, 1> METHOD_NAMES = {{
+constexpr std::array<std::pair<Method, const char*>, 2> METHOD_NAMES = {{
     {Method::Paper2017, "paper2017"},
+    {Method::Multiview, "multiview"},
 }};
 
 void append(std::vector<std::string>& problems, std::vector<std::string> more)
@@ -92,6 +93,7 @@ std::vector<std::string> validate(const PipelineOptions& options)
   }
   append(problems, validate(options.dense_cloud));
   append(problems, validate(options.paper2017));
+  append(problems, validate(options.multiview));
   return problems;
 }
 
@@ -104,10 +106,14 @@ Pipeline::~Pipeline() = default;
 
 Estimator& Pipeline::estimatorFor(const PipelineOptions& options)
 {
-  switch (options.method)
+  if (options.method == Method::Multiview)
   {
-    case Method::Paper2017:
-      break;
+    if (!multiview_)
+    {
+      multiview_ = std::make_unique<MultiviewEstimator>();
+    }
+    multiview_->setOptions(options.multiview);
+    return *multiview_;
   }
   if (!paper2017_)
   {

@@ -12,6 +12,7 @@
 #include "light_field_depth/core/cancellation.h"
 #include "light_field_depth/core/estimator.h"
 #include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/multiview_estimator.h"
 #include "light_field_depth/core/paper2017_estimator.h"
 #include "light_field_depth/core/point_cloud.h"
 #include "light_field_depth/core/run_context.h"
@@ -21,10 +22,11 @@ namespace light_field_depth
 {
 enum class Method
 {
-  Paper2017  ///< the method of the 2017 paper, stage by stage
+  Paper2017,  ///< the method of the 2017 paper, stage by stage
+  Multiview   ///< all views solved together, aware of occlusions
 };
 
-/// "paper2017".
+/// "paper2017", "multiview".
 std::string toString(Method method);
 /// The inverse of toString(). @throw InputError that lists the names.
 Method methodFromString(const std::string& name);
@@ -39,6 +41,7 @@ struct PipelineOptions
   /// In pixels per grid step; found from the images when absent.
   std::optional<DisparityRange> disparity_range;
   Paper2017Options paper2017;
+  MultiviewOptions multiview;
   /// Confidence below which the organised cloud and the depth map have NaN. Raise it to see only what is
   /// certain.
   float min_confidence = 0.0F;
@@ -96,6 +99,7 @@ private:
   IntermediateSink intermediate_sink_;
   ProgressSink progress_sink_;
   std::unique_ptr<Paper2017Estimator> paper2017_;
+  std::unique_ptr<MultiviewEstimator> multiview_;
 };
 
 }  // namespace light_field_depth

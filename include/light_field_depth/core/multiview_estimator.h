@@ -1,0 +1,76 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_ESTIMATOR_H
+#define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_ESTIMATOR_H
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "light_field_depth/core/estimator.h"
+
+namespace light_field_depth
+{
+/// How much time to spend.
+enum class MultiviewPreset
+{
+  Quality,   ///< colour everywhere, more passes
+  Balanced,  ///< colour everywhere
+  Realtime   ///< the search on brightness alone, one refinement
+};
+
+/// "quality", "balanced", "realtime".
+std::string toString(MultiviewPreset preset);
+/// The inverse of toString(). @throw InputError that lists the names.
+MultiviewPreset multiviewPresetFromString(const std::string& name);
+
+/// Settings of the multi-view method. Disparities are meant for the outermost view REFERENCE_BASELINE grid
+/// steps away from the reference; wider and narrower arrays scale them, so that they stand for the same
+/// motion in the outermost view.
+struct MultiviewOptions
+{
+  MultiviewPreset preset = MultiviewPreset::Balanced;
+  /// Distance between the disparities that are tried, in pixels; smaller is slower and finer.
+  float label_step_px = 0.125F;
+  /// P1: cost of a change of disparity by one label between neighbours, 240 being the worst matching cost.
+  /// Raise it where the result is noisy, lower it where slanted surfaces show steps.
+  int small_change_penalty = 30;
+  /// P2: cost of any larger change where the image has no edge. Raise it for large smooth objects, lower it
+  /// for fine structures.
+  int large_change_penalty = 1200;
+  /// Times that the views' occlusions are found from the map and the search repeated. Passes beyond the
+  /// preset's number cost time and rarely help.
+  int visibility_passes = 1;
+  /// Decide by colour to which side a pixel at a depth edge belongs.
+  bool edge_sides = true;
+  /// Times that the disparity is refined below the label step.
+  int refinements = 2;
+  /// Let the brightness of a surface change linearly with the position of the view (gloss, soft light).
+  bool brightness_slope = true;
+  /// Smoothness of the refinement; raise it for smoother surfaces.
+  float refinement_smoothness = 900.0F;
+};
+
+std::vector<std::string> validate(const MultiviewOptions& options);
+
+/// Solves the views of a light field together: truncated matching costs over arms of views, four-path
+/// aggregation, explicit visibility, a decision on edge pixels by colour, and a refinement that linearises
+/// all views at once. Works on any array of views.
+class MultiviewEstimator : public Estimator
+{
+public:
+  explicit MultiviewEstimator(MultiviewOptions options = {});
+  ~MultiviewEstimator() override;
+
+  void setOptions(const MultiviewOptions& options) { options_ = options; }
+
+  DisparityEstimate estimate(const LightField& light_field, const EstimateRequest& request,
+                             RunContext& context) override;
+
+private:
+  struct Buffers;
+  MultiviewOptions options_;
+  std::unique_ptr<Buffers> buffers_;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_ESTIMATOR_H
