@@ -1,95 +1,280 @@
 #include "light_field_depth/core/paper2017_estimator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
-#include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
+#include "light_field_depth/core/disparity_fusion.h"
+#include "light_field_depth/core/error.h"
+#include "volume_matches.h"
 
 namespace light_field_depth
 {
 namespace
 {
-cv::Mat toGrey(const cv::Mat& image)
+template <typename Value, std::size_t COUNT>
+using Names = std::array<std::pair<Value, const char*>, COUNT>;
+
+constexpr Names<FlowInitializer, 2> INITIALIZER_NAMES = {{
+    {FlowInitializer::Cpm, "cpm"},
+    {FlowInitializer::Dis, "dis"},
+}};
+constexpr Names<MatchDirections, 2> DIRECTIONS_NAMES = {{
+    {MatchDirections::Forward, "forward"},
+    {MatchDirections::Both, "both"},
+}};
+
+template <typename Value, std::size_t COUNT>
+std::string nameOf(const Names<Value, COUNT>& names, Value value)
 {
-  if (image.channels() == 1)
-  {
-    return image;
-  }
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
+  return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == value; })
+      ->second;
 }
 
-/// Disparity from the flow of the reference view to one other view, projected on the epipolar line.
-cv::Mat disparityFromFlow(const cv::Mat& flow, const View& view)
+template <typename Value, std::size_t COUNT>
+Value valueOf(const Names<Value, COUNT>& names, const std::string& name, const std::string& what)
 {
-  const cv::Point2d steps = view.steps;
-  const double norm = steps.dot(steps);
-  cv::Mat disparity(flow.size(), CV_32FC1);
-  for (int y = 0; y < flow.rows; ++y)
+  std::string known;
+  for (const auto& entry : names)
   {
-    for (int x = 0; x < flow.cols; ++x)
+    if (name == entry.second)
     {
-      const auto& f = flow.at<cv::Vec2f>(y, x);
-      disparity.at<float>(y, x) = static_cast<float>(
-          -((f[0] - view.offset_px.x) * steps.x + (f[1] - view.offset_px.y) * steps.y) / norm);
+      return entry.first;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(entry.second);
+  }
+  throw InputError("There is no " + what + " '" + name + "'; choose one of: " + known + ".");
+}
+
+/// The mean of two matches of one pixel, weighted by their confidence, or the one that there is.
+SparseDisparity combined(const SparseDisparity& a, const SparseDisparity& b)
+{
+  SparseDisparity result;
+  const cv::Mat total = a.confidence + b.confidence;
+  result.disparity = (a.disparity.mul(a.confidence) + b.disparity.mul(b.confidence)) / total;
+  result.disparity.setTo(0.0, total <= 0.0);
+  result.confidence = cv::max(a.confidence, b.confidence);
+  return result;
+}
+
+/// What is diffused in each view. The last view has no next one, so it takes the matches with its previous.
+std::vector<SparseDisparity> estimatesOf(const VolumeMatches& matches, MatchDirections directions)
+{
+  std::vector<SparseDisparity> estimates = matches.forward;
+  estimates.back() = matches.backward.back();
+  if (directions == MatchDirections::Both)
+  {
+    for (std::size_t i = 1; i + 1 < estimates.size(); ++i)
+    {
+      estimates[i] = combined(matches.forward[i], matches.backward[i]);
     }
   }
-  return disparity;
+  return estimates;
+}
+
+DisparityRange rangeOf(const cv::Mat& disparity)
+{
+  double minimum = 0.0;
+  double maximum = 0.0;
+  cv::minMaxIdx(disparity, &minimum, &maximum);
+  return {static_cast<float>(minimum), static_cast<float>(maximum)};
+}
+
+void save(const RunContext& context, const std::string& name, const cv::Mat& values)
+{
+  if (context.save_intermediate)
+  {
+    context.save_intermediate(name, values);
+  }
+}
+
+void announce(const RunContext& context, const std::string& stage, double fraction)
+{
+  if (context.progress)
+  {
+    context.progress(stage, fraction);
+  }
+}
+
+std::string mapName(const std::string& stage, const AngularVolume& volume, std::size_t place)
+{
+  return stage + "_" + volume.name + "_view_" + std::to_string(place);
+}
+
+/// One run of the method.
+class Run
+{
+public:
+  Run(const LightField& light_field, const EstimateRequest& request, const Paper2017Options& options,
+      RunContext& context)
+      : light_field_(toEightBit(light_field)), request_(request), options_(options), context_(context),
+        volumes_(extractVolumes(light_field_, request.views, options.volumes))
+  {
+  }
+
+  DisparityEstimate estimate();
+
+private:
+  void diffuse(const std::vector<VolumeMatches>& matches);
+  FusedDisparity fuse();
+  cv::Mat refine(const cv::Mat& disparity);
+  std::vector<std::size_t> usedViews() const;
+  std::vector<ViewDisparity> viewDisparities() const;
+
+  LightField light_field_;
+  const EstimateRequest& request_;
+  const Paper2017Options& options_;
+  RunContext& context_;
+  std::vector<AngularVolume> volumes_;
+  std::vector<std::vector<DenseDisparity>> dense_;  ///< by volume and view
+};
+
+void Run::diffuse(const std::vector<VolumeMatches>& matches)
+{
+  const StageTimer timer(context_, "feature_flow");
+  for (std::size_t v = 0; v < volumes_.size(); ++v)
+  {
+    std::vector<const View*> views;
+    for (const std::size_t index : volumes_[v].view_indices)
+    {
+      views.push_back(&light_field_.views[index]);
+    }
+    const std::vector<SparseDisparity> estimates = estimatesOf(matches[v], options_.match_directions);
+    dense_.push_back(featureFlow(views, estimates, matches[v].forward, matches[v].backward,
+                                 options_.feature_flow, context_.pool));
+    for (std::size_t i = 0; i < estimates.size(); ++i)
+    {
+      save(context_, mapName("matches", volumes_[v], i), estimates[i].disparity);
+      save(context_, mapName("feature_flow", volumes_[v], i), dense_.back()[i].disparity);
+    }
+  }
+}
+
+FusedDisparity Run::fuse()
+{
+  const StageTimer timer(context_, "fusion");
+  std::vector<std::pair<std::size_t, std::size_t>> places;
+  for (std::size_t v = 0; v < volumes_.size(); ++v)
+  {
+    for (std::size_t i = 0; i < dense_[v].size(); ++i)
+    {
+      places.emplace_back(v, i);
+    }
+  }
+  std::vector<DenseDisparity> warped(places.size());
+  context_.pool.parallelFor(0, static_cast<int>(places.size()), 1,
+                            [&](int place, int)
+                            {
+                              const auto [v, i] = places[static_cast<std::size_t>(place)];
+                              warped[static_cast<std::size_t>(place)] = warpToReference(
+                                  dense_[v][i], light_field_.views[volumes_[v].view_indices[i]]);
+                            });
+  FusedDisparity fused = fuseByMedian(warped, context_.pool);
+  save(context_, "median", fused.disparity);
+  return fused;
+}
+
+std::vector<std::size_t> Run::usedViews() const
+{
+  std::vector<std::size_t> views = {light_field_.reference_index};
+  for (const AngularVolume& volume : volumes_)
+  {
+    views.insert(views.end(), volume.view_indices.begin(), volume.view_indices.end());
+  }
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  return views;
+}
+
+cv::Mat Run::refine(const cv::Mat& disparity)
+{
+  if (!options_.variational.enabled)
+  {
+    return disparity;
+  }
+  const StageTimer timer(context_, "variational");
+  return refineDisparity(light_field_, refinementViews(light_field_, usedViews(), options_.variational.views),
+                         disparity, options_.variational, context_.pool);
+}
+
+std::vector<ViewDisparity> Run::viewDisparities() const
+{
+  std::vector<ViewDisparity> maps;
+  std::vector<bool> done(light_field_.views.size(), false);
+  for (std::size_t v = 0; v < volumes_.size(); ++v)
+  {
+    for (std::size_t i = 0; i < dense_[v].size(); ++i)
+    {
+      const std::size_t index = volumes_[v].view_indices[i];
+      if (!done[index])
+      {
+        maps.push_back({index, dense_[v][i].disparity, dense_[v][i].confidence});
+        done[index] = true;
+      }
+    }
+  }
+  return maps;
+}
+
+DisparityEstimate Run::estimate()
+{
+  announce(context_, "matching", 0.0);
+  diffuse(matchVolumes(light_field_, volumes_, request_.disparity_range, options_, context_));
+  announce(context_, "fusion", 0.6);
+  const FusedDisparity fused = fuse();
+  announce(context_, "variational", 0.7);
+  DisparityEstimate estimate;
+  estimate.disparity = refine(fused.disparity);
+  estimate.confidence = fused.confidence;
+  estimate.range = request_.disparity_range.value_or(rangeOf(estimate.disparity));
+  estimate.views_used = usedViews().size();
+  if (request_.view_disparities)
+  {
+    estimate.view_disparities = viewDisparities();
+  }
+  return estimate;
 }
 
 }  // namespace
 
-std::vector<std::string> validate(const Paper2017Options& /*options*/)
+std::string toString(FlowInitializer initializer)
 {
-  return {};
+  return nameOf(INITIALIZER_NAMES, initializer);
 }
 
-Paper2017Estimator::Paper2017Estimator(Paper2017Options options) : options_(options) {}
+FlowInitializer flowInitializerFromString(const std::string& name)
+{
+  return valueOf(INITIALIZER_NAMES, name, "initializer");
+}
+
+std::string toString(MatchDirections directions)
+{
+  return nameOf(DIRECTIONS_NAMES, directions);
+}
+
+MatchDirections matchDirectionsFromString(const std::string& name)
+{
+  return valueOf(DIRECTIONS_NAMES, name, "choice of match directions");
+}
+
+std::vector<std::string> validate(const Paper2017Options& options)
+{
+  std::vector<std::string> problems = validate(options.patch_match);
+  for (auto more : {validate(options.feature_flow), validate(options.variational)})
+  {
+    std::move(more.begin(), more.end(), std::back_inserter(problems));
+  }
+  return problems;
+}
+
+Paper2017Estimator::Paper2017Estimator(Paper2017Options options) : options_(std::move(options)) {}
 
 DisparityEstimate Paper2017Estimator::estimate(const LightField& light_field, const EstimateRequest& request,
                                                RunContext& context)
 {
-  const LightField field = toEightBit(
-      selectViews(light_field, request.views == ViewSelection::Auto ? ViewSelection::Cross : request.views));
-  const StageTimer timer(context, "flow");
-  const cv::Mat reference = toGrey(field.reference().image);
-  std::vector<cv::Mat> maps;
-  for (std::size_t i = 0; i < field.views.size(); ++i)
-  {
-    if (i != field.reference_index)
-    {
-      cv::Mat flow;
-      cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)
-          ->calc(reference, toGrey(field.views[i].image), flow);
-      maps.push_back(disparityFromFlow(flow, field.views[i]));
-    }
-  }
-  DisparityEstimate estimate;
-  estimate.disparity.create(field.size(), CV_32FC1);
-  estimate.confidence = cv::Mat::ones(field.size(), CV_32FC1);
-  std::vector<float> values(maps.size());
-  for (int y = 0; y < field.size().height; ++y)
-  {
-    for (int x = 0; x < field.size().width; ++x)
-    {
-      for (std::size_t i = 0; i < maps.size(); ++i)
-      {
-        values[i] = maps[i].at<float>(y, x);
-      }
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      estimate.disparity.at<float>(y, x) = *middle;
-    }
-  }
-  double minimum = 0.0;
-  double maximum = 0.0;
-  cv::minMaxIdx(estimate.disparity, &minimum, &maximum);
-  estimate.range = request.disparity_range.value_or(
-      DisparityRange{static_cast<float>(minimum), static_cast<float>(maximum)});
-  estimate.views_used = field.views.size();
-  return estimate;
+  return Run(light_field, request, options_, context).estimate();
 }
 
 }  // namespace light_field_depth

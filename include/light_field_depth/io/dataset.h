@@ -20,7 +20,9 @@ enum class Flip
   Both
 };
 
-/// "none", "rows", "columns", "both". @throw InputError that lists the names.
+/// "none", "rows", "columns", "both".
+std::string toString(Flip flip);
+/// The inverse of toString(). @throw InputError that lists the names.
 Flip flipFromString(const std::string& name);
 
 struct DatasetOptions
@@ -33,14 +35,23 @@ struct DatasetOptions
 /// A light field read from a folder.
 struct Dataset
 {
+  /// View::grid has the files' numbers, reversed where rows or columns are flipped. View::steps follow the
+  /// numbers also where views are missing in between: disparities are always per step of the numbering.
   LightField light_field;
   std::string format;                             ///< "hci", "grid", "stanford" or "yaml"
+  Flip flip = Flip::None;                         ///< that was applied
   std::vector<std::filesystem::path> files;       ///< of LightField::views, in their order
   std::optional<DisparityRange> disparity_range;  ///< as the dataset's description states it, in px per step
   std::optional<std::filesystem::path> truth;     ///< a PFM with the disparity of the reference view
 };
 
-/// Recognises the format of a folder by its files and reads all views, in parallel.
+/// Recognises the format of a folder by its files and reads all views, in parallel:
+///   - `light_field.yaml`, a description that names everything (see the README);
+///   - HCI: `input_Cam%03d.*`, calibrated by `parameters.cfg`;
+///   - Stanford: `out_RR_CC_Y_X.*`, camera positions in the names;
+///   - any grid: `RR_CC.*` with or without a prefix, or `RRCC.*`, counted from 0 or 1.
+/// Other files in the folder are left alone. The stated range and the truth are dropped where another
+/// reference view or flip makes them wrong.
 /// @throw InputError that names the folder or the file, what is wrong with it and the remedy
 Dataset readDataset(const std::filesystem::path& folder, const DatasetOptions& options = {});
 

@@ -1,0 +1,28 @@
+#ifndef LIGHT_FIELD_DEPTH_IO_IMAGE_FILES_H
+#define LIGHT_FIELD_DEPTH_IO_IMAGE_FILES_H
+
+#include <filesystem>
+#include <string>
+
+#include <opencv2/core.hpp>
+
+namespace light_field_depth
+{
+/// Whether a file's extension is one of the image formats that are read: PNG, JPEG, TIFF, BMP.
+bool isImageFile(const std::filesystem::path& path);
+
+/// "PNG, JPEG, TIFF or BMP", for messages.
+std::string imageFormatsText();
+
+/// Reads a whole image without changing its values: CV_8U or CV_16U, grey or BGR; an alpha channel is
+/// dropped, an orientation tag is ignored. Thread safe.
+/// @throw InputError if the file cannot be read, is truncated or damaged, or has values of another kind
+cv::Mat readImage(const std::filesystem::path& path);
+
+/// Writes an image in the format that the extension names; the file appears whole or not at all.
+/// @throw InputError if the file cannot be written
+void writeImage(const std::filesystem::path& path, const cv::Mat& image);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_IO_IMAGE_FILES_H

@@ -1,0 +1,111 @@
+#include "light_field_depth/core/domain_transform.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+namespace light_field_depth
+{
+namespace
+{
+constexpr int COLOR_CHANNELS = 3;
+
+int colorDifference(const std::uint8_t* a, const std::uint8_t* b, int channels)
+{
+  int sum = 0;
+  for (int c = 0; c < channels; ++c)
+  {
+    sum += std::abs(static_cast<int>(a[c]) - static_cast<int>(b[c]));
+  }
+  return sum;
+}
+
+/// There and back along one row. The two recursions run side by side, which hides the latency of one behind
+/// the other.
+void filterRow(const std::vector<float>& feedback, int width, float* weighted, float* weight)
+{
+  for (int x = 1; x < width; ++x)
+  {
+    const float a = feedback[static_cast<std::size_t>(x)];
+    weighted[x] += a * (weighted[x - 1] - weighted[x]);
+    weight[x] += a * (weight[x - 1] - weight[x]);
+  }
+  for (int x = width - 2; x >= 0; --x)
+  {
+    const float a = feedback[static_cast<std::size_t>(x) + 1];
+    weighted[x] += a * (weighted[x + 1] - weighted[x]);
+    weight[x] += a * (weight[x + 1] - weight[x]);
+  }
+}
+
+void mixRows(const float* feedback, int width, const float* from, float* into)
+{
+  for (int x = 0; x < width; ++x)
+  {
+    into[x] += feedback[x] * (from[x] - into[x]);
+  }
+}
+
+void filterRows(const cv::Mat& guide, const FeedbackTable& table, WeightedValues& values)
+{
+  const int channels = guide.channels();
+  std::vector<float> feedback(static_cast<std::size_t>(guide.cols));
+  for (int y = 0; y < guide.rows; ++y)
+  {
+    const std::uint8_t* color = guide.ptr<std::uint8_t>(y);
+    for (int x = 1; x < guide.cols; ++x)
+    {
+      feedback[static_cast<std::size_t>(x)] =
+          table[colorDifference(color + x * channels, color + (x - 1) * channels, channels)];
+    }
+    filterRow(feedback, guide.cols, values.weighted.ptr<float>(y), values.weight.ptr<float>(y));
+  }
+}
+
+void filterColumns(const cv::Mat& guide, const FeedbackTable& table, WeightedValues& values)
+{
+  const int channels = guide.channels();
+  cv::Mat feedback(guide.size(), CV_32FC1);
+  for (int y = 1; y < guide.rows; ++y)
+  {
+    const std::uint8_t* color = guide.ptr<std::uint8_t>(y);
+    const std::uint8_t* above = guide.ptr<std::uint8_t>(y - 1);
+    float* out = feedback.ptr<float>(y);
+    for (int x = 0; x < guide.cols; ++x)
+    {
+      out[x] = table[colorDifference(color + x * channels, above + x * channels, channels)];
+    }
+    mixRows(out, guide.cols, values.weighted.ptr<float>(y - 1), values.weighted.ptr<float>(y));
+    mixRows(out, guide.cols, values.weight.ptr<float>(y - 1), values.weight.ptr<float>(y));
+  }
+  for (int y = guide.rows - 2; y >= 0; --y)
+  {
+    const float* a = feedback.ptr<float>(y + 1);
+    mixRows(a, guide.cols, values.weighted.ptr<float>(y + 1), values.weighted.ptr<float>(y));
+    mixRows(a, guide.cols, values.weight.ptr<float>(y + 1), values.weight.ptr<float>(y));
+  }
+}
+
+}  // namespace
+
+FeedbackTable::FeedbackTable(const DomainTransformScale& scale, int iteration, int iterations, int channels)
+    : coefficients_(static_cast<std::size_t>(255 * channels + 1))
+{
+  const double deviation = scale.distance * std::sqrt(3.0) * std::exp2(iterations - 1 - iteration) /
+                           std::sqrt(std::exp2(2 * iterations) - 1.0);
+  // A grey image counts as a colour image with three equal channels.
+  const double per_level = scale.distance / scale.range / 255.0 * COLOR_CHANNELS / channels;
+  for (std::size_t difference = 0; difference < coefficients_.size(); ++difference)
+  {
+    const double distance = 1.0 + per_level * static_cast<double>(difference);
+    coefficients_[difference] = static_cast<float>(std::exp(-std::sqrt(2.0) / deviation * distance));
+  }
+}
+
+void filterSpatially(const cv::Mat& guide, const FeedbackTable& table, WeightedValues& values)
+{
+  filterRows(guide, table, values);
+  filterColumns(guide, table, values);
+}
+
+}  // namespace light_field_depth

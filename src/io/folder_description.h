@@ -1,0 +1,61 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_IO_FOLDER_DESCRIPTION_H
+#define LIGHT_FIELD_DEPTH_SRC_IO_FOLDER_DESCRIPTION_H
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/io/dataset.h"
+
+namespace light_field_depth
+{
+/// A view before it is decoded.
+struct ViewFile
+{
+  std::filesystem::path path;
+  GridPosition number;                  ///< as the dataset counts
+  std::optional<cv::Point2d> position;  ///< of the camera, in any unit: x to the right, y downwards
+};
+
+/// What a dataset says of its cameras.
+struct CameraDescription
+{
+  double focal_length_px = 0.0;        ///< used if positive, else
+  double focal_length_per_side = 0.0;  ///< focal length over the longer side of the image
+  std::optional<cv::Point2d>
+      principal_point_px;                  ///< of the nominal reference view; the image's centre if absent
+  double baseline_m = 0.0;                 ///< between adjacent columns
+  std::optional<double> focus_distance_m;  ///< absent: parallel cameras
+};
+
+/// What the names and the descriptions in a folder say of its light field.
+struct FolderDescription
+{
+  std::string format;
+  std::vector<ViewFile> views;
+  std::optional<cv::Rect> grid;           ///< numbers of all views there could be: x, width are columns
+  std::optional<GridPosition> reference;  ///< the view of the truth; the middle of the grid if absent
+  std::optional<Flip> flip;               ///< found from the positions, or None, if absent
+  std::optional<double> step_length;      ///< distance of adjacent columns in the unit of the positions
+  double row_step_ratio = 1.0;            ///< distance of adjacent rows over that of adjacent columns
+  std::optional<CameraDescription> camera;
+  std::optional<DisparityRange> disparity_range;
+  std::optional<std::filesystem::path> truth;
+};
+
+/// A folder with a light_field.yaml. @throw InputError
+FolderDescription describeByYaml(const std::filesystem::path& yaml_file);
+
+/// A folder whose files tell their place by their names. @throw InputError
+FolderDescription describeByNames(const std::filesystem::path& folder);
+
+/// Adds what an HCI parameters.cfg says: the grid, cameras, disparity range. @throw InputError
+void readHciParameters(const std::filesystem::path& cfg_file, FolderDescription& description);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_IO_FOLDER_DESCRIPTION_H

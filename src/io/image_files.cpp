@@ -1,0 +1,118 @@
+#include "light_field_depth/io/image_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "light_field_depth/core/error.h"
+#include "light_field_depth/io/files.h"
+
+namespace light_field_depth
+{
+namespace
+{
+constexpr std::array<std::string_view, 6> EXTENSIONS = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"};
+
+bool startsWith(std::string_view text, std::string_view beginning)
+{
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+/// Decoders fill the rest of a truncated JPEG with grey and call it a success, and complain about a truncated
+/// PNG on stderr; so the end of the file is looked at before.
+bool isTruncated(std::string_view content)
+{
+  using namespace std::string_view_literals;
+  if (startsWith(content, "\x89PNG"sv))
+  {
+    return content.rfind("IEND"sv) == std::string_view::npos;
+  }
+  if (startsWith(content, "\xFF\xD8"sv))
+  {
+    const std::size_t last_scan = content.rfind("\xFF\xDA"sv);
+    const std::size_t end = content.rfind("\xFF\xD9"sv);
+    return last_scan == std::string_view::npos || end == std::string_view::npos || end < last_scan;
+  }
+  return false;
+}
+
+cv::Mat decode(const std::string& content)
+{
+  try
+  {
+    const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
+    return cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  }
+  catch (const cv::Exception&)
+  {
+    return {};
+  }
+}
+
+}  // namespace
+
+bool isImageFile(const std::filesystem::path& path)
+{
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return std::find(EXTENSIONS.begin(), EXTENSIONS.end(), extension) != EXTENSIONS.end();
+}
+
+std::string imageFormatsText()
+{
+  return "PNG, JPEG, TIFF or BMP";
+}
+
+cv::Mat readImage(const std::filesystem::path& path)
+{
+  const std::string content = readFile(path);
+  if (content.empty())
+  {
+    throw InputError("The image '" + path.string() + "' is an empty file; copy it again or remove it.");
+  }
+  if (isTruncated(content))
+  {
+    throw InputError("The image '" + path.string() +
+                     "' is truncated: its end is missing; copy it again or remove it.");
+  }
+  cv::Mat image = decode(content);
+  if (image.empty())
+  {
+    throw InputError("The image '" + path.string() + "' cannot be decoded as " + imageFormatsText() +
+                     "; it is damaged or of another format.");
+  }
+  if (image.depth() != CV_8U && image.depth() != CV_16U)
+  {
+    throw InputError("The image '" + path.string() +
+                     "' has values that are neither 8 nor 16 bits wide; convert it.");
+  }
+  return image;
+}
+
+void writeImage(const std::filesystem::path& path, const cv::Mat& image)
+{
+  writeWhole(path,
+             [&](const std::filesystem::path& temporary)
+             {
+               bool written = false;
+               try
+               {
+                 written = cv::imwrite(temporary.string(), image);
+               }
+               catch (const cv::Exception&)
+               {
+                 written = false;
+               }
+               if (!written)
+               {
+                 throw InputError("The image '" + path.string() +
+                                  "' cannot be written; check the folder, its permissions and the disk.");
+               }
+             });
+}
+
+}  // namespace light_field_depth

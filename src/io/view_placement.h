@@ -1,0 +1,29 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_IO_VIEW_PLACEMENT_H
+#define LIGHT_FIELD_DEPTH_SRC_IO_VIEW_PLACEMENT_H
+
+#include <filesystem>
+#include <vector>
+
+#include "folder_description.h"
+
+namespace light_field_depth
+{
+/// Where the views of a dataset stand, in this package's convention.
+struct PlacedViews
+{
+  std::vector<View> views;      ///< without images, row-major; FolderDescription::views has the same order
+  GridPosition reference;       ///< as View::grid counts
+  cv::Point2d reference_steps;  ///< from the dataset's own reference view to the chosen one
+  bool own_reference = true;    ///< the chosen one is the dataset's own
+  Flip flip = Flip::None;       ///< that was applied
+  bool own_flip = true;         ///< the dataset says the same
+};
+
+/// Turns numbers and positions into View::grid and View::steps, and sorts the views.
+/// @throw InputError if a place is taken twice, the reference is not there or the positions make no grid
+PlacedViews placeViews(const std::filesystem::path& folder, FolderDescription& description,
+                       const DatasetOptions& options);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_IO_VIEW_PLACEMENT_H

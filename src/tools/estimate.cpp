@@ -1,0 +1,312 @@
+// The pipeline on a dataset folder, without a ROS master.
+
+#include <chrono>
+#include <csignal>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "light_field_depth/core/photometric_error.h"
+#include "light_field_depth/io/cloud_files.h"
+#include "light_field_depth/io/dataset.h"
+#include "light_field_depth/io/disparity_image.h"
+#include "light_field_depth/io/files.h"
+#include "light_field_depth/io/image_files.h"
+#include "light_field_depth/io/intermediate_files.h"
+#include "light_field_depth/io/pfm.h"
+#include "light_field_depth/io/pipeline_options_io.h"
+#include "light_field_depth/io/report.h"
+#include "progress_bar.h"
+#include "tool_main.h"
+
+namespace
+{
+namespace lfd = light_field_depth;
+namespace fs = std::filesystem;
+
+constexpr int MAX_THREADS = 1024;
+
+/// The command line as it was typed.
+struct Arguments
+{
+  std::string input;
+  std::string output;
+  std::string method;
+  std::string views;
+  std::vector<int> reference;
+  std::vector<float> disparity_range;
+  std::string flip;
+  bool dense = false;
+  int threads = 0;
+  bool save_intermediate = false;
+  std::string config;
+  std::vector<std::string> settings;
+};
+
+void declare(CLI::App& app, Arguments& arguments)
+{
+  app.add_option("--input", arguments.input, "folder with the views of a light field")->required();
+  app.add_option("--output", arguments.output, "folder for the results; created if need be")->required();
+  app.add_option("--method", arguments.method, "method: " + lfd::methodNames().front() + " by default");
+  app.add_option("--views", arguments.views,
+                 "views to use: auto (the method's own choice), row, column, cross, star or all");
+  app.add_option("--reference", arguments.reference,
+                 "ROW,COL of the reference view, numbered as in the files")
+      ->delimiter(',')
+      ->expected(2);
+  app.add_option("--disparity-range", arguments.disparity_range,
+                 "MIN,MAX in pixels between adjacent views; by default what the dataset states, else found")
+      ->delimiter(',')
+      ->expected(2);
+  app.add_option(
+      "--flip", arguments.flip,
+      "none, rows, columns or both: what is numbered against the convention (rows down, columns right)");
+  app.add_flag("--dense", arguments.dense, "also write the extra dense cloud of all views");
+  app.add_option("--threads", arguments.threads, "threads to work with; 0 takes one per processor")
+      ->check(CLI::Range(0, MAX_THREADS));
+  app.add_flag("--save-intermediate", arguments.save_intermediate,
+               "also write the results of the single stages to OUTPUT/intermediate");
+  app.add_option("--config", arguments.config, "YAML file of settings, as under 'options' in report.json");
+  app.add_option("--set", arguments.settings, "NAME=VALUE of one setting; may be repeated");
+}
+
+void applySetting(const std::string& text, lfd::PipelineOptions& options)
+{
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos)
+  {
+    throw lfd::InputError("--set needs NAME=VALUE, but got '" + text + "'.");
+  }
+  lfd::setOption(options, text.substr(0, equals), text.substr(equals + 1));
+}
+
+/// Later ones win: the defaults, the file, --set, the options with a name of their own.
+lfd::PipelineOptions makeOptions(const Arguments& arguments)
+{
+  lfd::PipelineOptions options;
+  if (!arguments.config.empty())
+  {
+    lfd::readOptionsFile(arguments.config, options);
+  }
+  for (const std::string& setting : arguments.settings)
+  {
+    applySetting(setting, options);
+  }
+  if (!arguments.method.empty())
+  {
+    options.method = lfd::methodFromString(arguments.method);
+  }
+  if (!arguments.views.empty())
+  {
+    options.views = lfd::viewSelectionFromString(arguments.views);
+  }
+  if (!arguments.disparity_range.empty())
+  {
+    options.disparity_range = lfd::DisparityRange{arguments.disparity_range[0], arguments.disparity_range[1]};
+  }
+  return options;
+}
+
+lfd::DatasetOptions makeDatasetOptions(const Arguments& arguments)
+{
+  lfd::DatasetOptions options;
+  options.threads = arguments.threads;
+  if (!arguments.reference.empty())
+  {
+    options.reference = lfd::GridPosition{arguments.reference[0], arguments.reference[1]};
+  }
+  if (!arguments.flip.empty())
+  {
+    options.flip = lfd::flipFromString(arguments.flip);
+  }
+  return options;
+}
+
+class Stopwatch
+{
+public:
+  double milliseconds() const
+  {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+lfd::Pipeline* running_pipeline = nullptr;
+
+/// Makes an interruption end the computation in order, so that no file is left half-written.
+class InterruptionGuard
+{
+public:
+  explicit InterruptionGuard(lfd::Pipeline& pipeline)
+  {
+    running_pipeline = &pipeline;
+    std::signal(SIGINT, stop);
+    std::signal(SIGTERM, stop);
+  }
+  ~InterruptionGuard()
+  {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    running_pipeline = nullptr;
+  }
+  InterruptionGuard(const InterruptionGuard&) = delete;
+  InterruptionGuard& operator=(const InterruptionGuard&) = delete;
+
+private:
+  static void stop(int /*signal*/) { running_pipeline->cancel(); }
+};
+
+/// @return the names of the files
+std::vector<std::string> writeResults(const fs::path& folder, const lfd::PipelineResult& result)
+{
+  std::vector<std::string> files;
+  const auto next = [&](const char* name)
+  {
+    files.emplace_back(name);
+    return folder / name;
+  };
+  const cv::Mat& disparity = result.estimate.disparity;
+  lfd::writePfm(next("disparity.pfm"), disparity);
+  lfd::writePfm(next("confidence.pfm"), result.estimate.confidence);
+  lfd::writeImage(next("disparity.png"), lfd::disparityWithScale(disparity, lfd::shownRange(disparity)));
+  if (!result.depth.empty())
+  {
+    lfd::writePfm(next("depth.pfm"), result.depth);
+  }
+  if (!result.organized_cloud.empty())
+  {
+    lfd::writePly(next("cloud.ply"), result.organized_cloud);
+  }
+  if (!result.dense_cloud.empty())
+  {
+    lfd::writePly(next("dense_cloud.ply"), result.dense_cloud);
+  }
+  files.emplace_back("report.json");
+  return files;
+}
+
+lfd::PipelineResult runPipeline(lfd::Pipeline& pipeline, const Arguments& arguments,
+                                const lfd::LightField& light_field, const lfd::PipelineOptions& options)
+{
+  const InterruptionGuard guard(pipeline);
+  lfd::ProgressBar progress;
+  pipeline.setProgressSink([&](const std::string& stage, double fraction)
+                           { progress.show(stage, fraction); });
+  if (arguments.save_intermediate)
+  {
+    const fs::path folder = fs::path(arguments.output) / "intermediate";
+    pipeline.setIntermediateSink([folder](const std::string& name, const cv::Mat& values)
+                                 { lfd::writeIntermediate(folder, name, values); });
+  }
+  lfd::ProductRequest request;
+  request.depth = true;
+  request.organized_cloud = true;
+  request.dense_cloud = arguments.dense;
+  return pipeline.run(light_field, options, request);
+}
+
+void describeInput(const std::string& input, const lfd::Dataset& dataset, lfd::RunReport& report)
+{
+  const lfd::LightField& light_field = dataset.light_field;
+  report.input = input;
+  report.format = dataset.format;
+  report.flip = toString(dataset.flip);
+  report.views_found = light_field.views.size();
+  report.reference = light_field.reference().grid;
+  report.reference_file = dataset.files[light_field.reference_index].filename().string();
+  report.size = light_field.size();
+  report.calibration = light_field.calibration;
+}
+
+void describeResult(const lfd::PipelineResult& result, const lfd::PhotometricError& error,
+                    lfd::RunReport& report)
+{
+  report.views_used = result.estimate.views_used;
+  report.disparity_range = result.estimate.range;
+  report.stage_times = result.stage_times;
+  report.total_ms = result.total_ms;
+  report.photometric_error = error.mean;
+  report.photometric_error_of_medians = error.mean_of_medians;
+}
+
+std::string sentenceOfInput(const lfd::RunReport& report)
+{
+  std::ostringstream text;
+  text << report.views_found << " views (" << report.format << ") of " << report.size.width << " x "
+       << report.size.height << " pixels, " << report.views_used << " used; reference "
+       << report.reference_file << "; method " << toString(report.options.method) << ".";
+  return text.str();
+}
+
+void printSummary(const lfd::RunReport& report, const std::string& output)
+{
+  std::cout << std::fixed << std::setprecision(2) << sentenceOfInput(report) << "\n"
+            << "Disparity range " << report.disparity_range.min << " .. " << report.disparity_range.max
+            << " px (" << toString(report.range_source) << "), photometric error "
+            << *report.photometric_error << " levels.\n"
+            << std::setprecision(0) << "Decoding " << report.decode_ms << " ms, method " << report.total_ms
+            << " ms on " << report.threads << " thread(s), writing " << report.write_ms << " ms, peak memory "
+            << report.peak_memory_mb << " MB.\n";
+  if (!report.calibration)
+  {
+    std::cout << "The dataset has no calibration, so there is no depth and no cloud.\n";
+  }
+  std::cout << "Wrote to " << output << ":";
+  for (const std::string& file : report.files)
+  {
+    std::cout << " " << file;
+  }
+  std::cout << std::endl;
+}
+
+void estimate(const Arguments& arguments)
+{
+  lfd::RunReport report;
+  report.options = makeOptions(arguments);
+  const Stopwatch decode_watch;
+  const lfd::Dataset dataset = lfd::readDataset(arguments.input, makeDatasetOptions(arguments));
+  report.decode_ms = decode_watch.milliseconds();
+  describeInput(arguments.input, dataset, report);
+  if (report.options.disparity_range)
+  {
+    report.range_source = lfd::RangeSource::Given;
+  }
+  else if (dataset.disparity_range)
+  {
+    report.options.disparity_range = dataset.disparity_range;
+    report.range_source = lfd::RangeSource::Dataset;
+  }
+  lfd::makeFolder(arguments.output);
+
+  lfd::Pipeline pipeline(arguments.threads);
+  report.threads = pipeline.threads();
+  cv::setNumThreads(report.threads);
+  const lfd::PipelineResult result = runPipeline(pipeline, arguments, dataset.light_field, report.options);
+  lfd::ThreadPool pool(report.threads);
+  describeResult(result, lfd::photometricError(dataset.light_field, result.estimate.disparity, pool), report);
+
+  const Stopwatch write_watch;
+  report.files = writeResults(arguments.output, result);
+  report.write_ms = write_watch.milliseconds();
+  report.peak_memory_mb = lfd::peakMemoryMb();
+  lfd::writeFile(fs::path(arguments.output) / "report.json", toJson(report));
+  printSummary(report, arguments.output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Arguments arguments;
+  CLI::App app(
+      "Depth from a light field: reads the views in a folder and writes disparity.pfm, confidence.pfm, "
+      "disparity.png, report.json and, if the dataset is calibrated, depth.pfm and cloud.ply.",
+      "estimate");
+  declare(app, arguments);
+  return lfd::runTool(app, argc, argv, [&] { estimate(arguments); });
+}

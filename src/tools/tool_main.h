@@ -1,0 +1,62 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_TOOLS_TOOL_MAIN_H
+#define LIGHT_FIELD_DEPTH_SRC_TOOLS_TOOL_MAIN_H
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "light_field_depth/core/error.h"
+
+namespace light_field_depth
+{
+constexpr int EXIT_INTERRUPTED = 130;
+
+/// Parses the command line and calls body(). Whatever goes wrong becomes one sentence on stderr.
+/// @return the exit code: 0, 1 after an error, 130 after an interruption
+template <class Body>
+int runTool(CLI::App& app, int argc, char** argv, const Body& body)
+{
+  const auto fail = [&](const std::string& sentence)
+  {
+    std::cerr << app.get_name() << ": " << sentence << std::endl;
+    return 1;
+  };
+  try
+  {
+    app.parse(argc, argv);
+    body();
+    return 0;
+  }
+  catch (const CLI::Success& help)
+  {
+    return app.exit(help);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return fail(std::string(error.what()) + " (" + app.get_name() + " --help lists the options)");
+  }
+  catch (const Cancelled&)
+  {
+    fail("interrupted.");
+    return EXIT_INTERRUPTED;
+  }
+  catch (const InputError& error)
+  {
+    return fail(error.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    return fail("The memory does not suffice; use fewer or smaller views.");
+  }
+  catch (const std::exception& error)
+  {
+    return fail(std::string("An unexpected error: ") + error.what());
+  }
+}
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_TOOLS_TOOL_MAIN_H
