@@ -8,28 +8,19 @@
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/error.h"
-#include "light_field_depth/core/multiview/cost_volume.h"
-#include "light_field_depth/core/multiview/edge_aware_smoothing.h"
-#include "light_field_depth/core/multiview/edge_side.h"
-#include "light_field_depth/core/multiview/label_space.h"
-#include "light_field_depth/core/multiview/path_aggregation.h"
-#include "light_field_depth/core/multiview/refinement.h"
-#include "light_field_depth/core/multiview/view_set.h"
-#include "light_field_depth/core/multiview/visibility.h"
+#include "light_field_depth/core/multiview/solver.h"
+#include "light_field_depth/core/multiview/view_maps.h"
 
 namespace light_field_depth
 {
 namespace
 {
-using multiview::LabelSpace;
-using multiview::ViewSet;
+using multiview::SolverSettings;
 
 /// The settings are meant for this distance of the outermost view, in grid steps.
 constexpr double REFERENCE_BASELINE = 4.0;
-constexpr int MAX_LABELS = 240;
-constexpr int MEDIAN_SIZE = 5;
-/// With fewer other views in the row and column of the reference, all views are used.
-constexpr std::size_t FEW_VIEWS = 6;
+/// With at most this many views in the row and column of the reference, all views are used.
+constexpr int FEW_VIEWS = 6;
 
 constexpr std::array<std::pair<MultiviewPreset, const char*>, 3> PRESET_NAMES = {{
     {MultiviewPreset::Quality, "quality"},
@@ -47,8 +38,7 @@ LightField chosenViews(const LightField& light_field, ViewSelection selection)
   const auto on_cross = std::count_if(
       light_field.views.begin(), light_field.views.end(),
       [&](const View& view) { return view.grid.row == centre.row || view.grid.column == centre.column; });
-  return static_cast<std::size_t>(on_cross) > FEW_VIEWS ? selectViews(light_field, ViewSelection::Cross)
-                                                        : light_field;
+  return on_cross > FEW_VIEWS ? selectViews(light_field, ViewSelection::Cross) : light_field;
 }
 
 double widestBaseline(const LightField& light_field)
@@ -71,9 +61,37 @@ LightField scaledSteps(LightField light_field, double scale)
   return light_field;
 }
 
-void labelsToDisparity(const cv::Mat& label, const LabelSpace& labels, cv::Mat& disparity)
+int refinementsOf(const MultiviewOptions& options)
 {
-  label.convertTo(disparity, CV_32F, labels.step_px, labels.first_px);
+  if (options.refinements != MultiviewOptions::PRESET_NUMBER)
+  {
+    return options.refinements;
+  }
+  switch (options.preset)
+  {
+    case MultiviewPreset::Quality:
+      return 4;
+    case MultiviewPreset::Realtime:
+      return 1;
+    case MultiviewPreset::Balanced:
+      break;
+  }
+  return 2;
+}
+
+SolverSettings solverSettings(const MultiviewOptions& options)
+{
+  SolverSettings settings;
+  settings.label_step_px = options.label_step_px;
+  settings.grey_search = options.preset == MultiviewPreset::Realtime;
+  settings.paths.small_step = options.small_change_penalty;
+  settings.paths.large_step = options.large_change_penalty;
+  settings.visibility_passes = options.visibility_passes;
+  settings.decide_edge_sides = options.edge_sides;
+  settings.refinements = refinementsOf(options);
+  settings.linearization.brightness_slope = options.brightness_slope;
+  settings.smoothing.strength = options.refinement_smoothness;
+  return settings;
 }
 
 }  // namespace
@@ -115,8 +133,8 @@ std::vector<std::string> validate(const MultiviewOptions& options)
           options.large_change_penalty, "between 1 and 10000");
   require(options.visibility_passes >= 0 && options.visibility_passes <= 5, "visibility_passes",
           options.visibility_passes, "between 0 and 5");
-  require(options.refinements >= 0 && options.refinements <= 10, "refinements", options.refinements,
-          "between 0 and 10");
+  require(options.refinements >= MultiviewOptions::PRESET_NUMBER && options.refinements <= 10, "refinements",
+          options.refinements, "between 0 and 10, or -1 for the preset's number");
   require(options.refinement_smoothness > 0.0F && options.refinement_smoothness <= 1e6F,
           "refinement_smoothness", options.refinement_smoothness, "positive and at most 1000000");
   return problems;
@@ -125,17 +143,7 @@ std::vector<std::string> validate(const MultiviewOptions& options)
 /// What is kept from frame to frame.
 struct MultiviewEstimator::Buffers
 {
-  ViewSet views;
-  multiview::CostVolumeBuilder cost_builder;
-  multiview::CostVolume volume;
-  multiview::PathAggregator aggregator;
-  multiview::VisibleSurfaces surfaces;
-  multiview::Linearizer linearizer;
-  multiview::Linearization linearization;
-  multiview::EdgeAwareSmoother smoother;
-  cv::Mat label;
-  cv::Mat disparity;
-  cv::Mat filtered;
+  multiview::Solver solver;
 };
 
 MultiviewEstimator::MultiviewEstimator(MultiviewOptions options)
@@ -148,82 +156,27 @@ MultiviewEstimator::~MultiviewEstimator() = default;
 DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, const EstimateRequest& request,
                                                RunContext& context)
 {
-  Buffers& work = *buffers_;
   const LightField chosen = toEightBit(chosenViews(light_field, request.views));
   if (!request.disparity_range)
   {
     throw InputError("The multiview method needs a disparity_range.");
   }
-  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
-  const LightField field = scaledSteps(chosen, unit);
-  const DisparityRange range{static_cast<float>(request.disparity_range->min * unit),
-                             static_cast<float>(request.disparity_range->max * unit)};
-  const LabelSpace labels = multiview::makeLabelSpace(range, options_.label_step_px, MAX_LABELS);
-  {
-    const StageTimer timer(context, "prepare");
-    multiview::ViewSetSettings settings;
-    settings.range = {labels.disparity(0.0F), labels.disparity(static_cast<float>(labels.count - 1))};
-    multiview::prepareViews(field, settings, context.pool, work.views);
-  }
-  multiview::CostSettings cost_settings;
-  cost_settings.min_seeing_views =
-      std::min(cost_settings.min_seeing_views, static_cast<int>(work.views.views.size()));
-  multiview::PathSettings path_settings;
-  path_settings.small_step = options_.small_change_penalty;
-  path_settings.large_step = options_.large_change_penalty;
-  const auto search = [&]
-  {
-    {
-      const StageTimer timer(context, "aggregate");
-      work.aggregator.aggregate(work.volume, work.views.reference, path_settings, context.pool, work.label);
-    }
-    const StageTimer timer(context, "median");
-    cv::medianBlur(work.label, work.filtered, MEDIAN_SIZE);
-    labelsToDisparity(work.filtered, labels, work.disparity);
-  };
-  {
-    const StageTimer timer(context, "cost");
-    work.cost_builder.buildFromArms(work.views, labels, cost_settings, context.pool, work.volume);
-  }
-  search();
-  for (int pass = 0; pass < options_.visibility_passes; ++pass)
-  {
-    {
-      const StageTimer timer(context, "visibility");
-      work.surfaces.warp(work.disparity, work.views, labels, context.pool);
-    }
-    {
-      const StageTimer timer(context, "visible cost");
-      work.cost_builder.buildFromVisible(work.views, labels, work.surfaces, cost_settings, context.pool,
-                                         work.volume);
-    }
-    search();
-  }
-  if (options_.edge_sides)
-  {
-    const StageTimer timer(context, "edge sides");
-    multiview::decideEdgeSides(work.views.reference, {}, context.pool, work.disparity, work.filtered);
-  }
-  multiview::SmoothingSettings smoothing;
-  smoothing.strength = options_.refinement_smoothness;
-  multiview::LinearizationSettings linearization;
-  linearization.brightness_slope = options_.brightness_slope;
-  work.smoother.setGuide(work.views.reference, smoothing, context.pool);
-  for (int i = 0; i < options_.refinements; ++i)
-  {
-    {
-      const StageTimer timer(context, "linearize");
-      work.linearizer.run(work.views, work.disparity, linearization, context.pool, work.linearization);
-    }
-    const StageTimer timer(context, "smooth");
-    work.smoother.run(work.linearization.weight, work.linearization.target, smoothing, context.pool,
-                      work.disparity);
-  }
   DisparityEstimate estimate;
-  work.disparity.convertTo(estimate.disparity, CV_32F, 1.0 / unit);
-  estimate.confidence = cv::Mat::ones(work.disparity.size(), CV_32FC1);
   estimate.range = *request.disparity_range;
   estimate.views_used = chosen.views.size();
+  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
+  SolverSettings settings = solverSettings(options_);
+  settings.range = {static_cast<float>(estimate.range.min * unit),
+                    static_cast<float>(estimate.range.max * unit)};
+  buffers_->solver.run(scaledSteps(chosen, unit), settings, context);
+  buffers_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
+  estimate.confidence = buffers_->solver.confidence().clone();
+  if (request.view_disparities)
+  {
+    const StageTimer timer(context, "view maps");
+    estimate.view_disparities =
+        multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool);
+  }
   return estimate;
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -80,6 +82,75 @@ TEST(MultiviewEstimator, DoesNotRememberEarlierFrames)
   static_cast<void>(estimator.estimate(large.light_field, request, context));
   const auto again = estimator.estimate(small.light_field, request, context);
   EXPECT_EQ(cv::norm(first.disparity, again.disparity, cv::NORM_INF), 0.0);
+}
+
+/// Percentage of bad pixels among the most confident `kept` of all.
+double badAmongMostConfident(const DisparityEstimate& result, const cv::Mat& truth, double kept)
+{
+  constexpr double threshold_px = 0.07;
+  std::vector<std::pair<float, bool>> pixels;
+  for (int y = 8; y < truth.rows - 8; ++y)
+  {
+    for (int x = 8; x < truth.cols - 8; ++x)
+    {
+      const float error = std::abs(result.disparity.at<float>(y, x) - truth.at<float>(y, x));
+      pixels.emplace_back(result.confidence.at<float>(y, x), error > threshold_px);
+    }
+  }
+  std::sort(pixels.begin(), pixels.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  const auto count = static_cast<std::ptrdiff_t>(kept * static_cast<double>(pixels.size()));
+  const auto bad =
+      std::count_if(pixels.begin(), pixels.begin() + count, [](const auto& p) { return p.second; });
+  return 100.0 * static_cast<double>(bad) / static_cast<double>(count);
+}
+
+TEST(MultiviewEstimator, KnowsWhereItIsWrong)
+{
+  const auto input = standardLightField(crossSettings());
+  const auto result = estimate(input.light_field, STANDARD_RANGE);
+  double low = 0.0;
+  double high = 0.0;
+  cv::minMaxIdx(result.confidence, &low, &high);
+  EXPECT_GE(low, 0.0);
+  EXPECT_LE(high, 1.0);
+  const double all = badAmongMostConfident(result, input.truth, 1.0);
+  const double kept = badAmongMostConfident(result, input.truth, 0.9);
+  EXPECT_LT(kept, 0.35 * all);
+}
+
+TEST(MultiviewEstimator, DoesNotTrustSurfacesWithoutTexture)
+{
+  auto settings = crossSettings(5);
+  auto scene = testing::standardScene(settings.size);
+  scene[0] = testing::plane(-1.0, 0.0, 0.0, testing::constantTexture({90, 90, 90}));
+  const auto input = testing::renderScene(scene, settings);
+  const auto result = estimate(input.light_field, STANDARD_RANGE);
+  const cv::Rect nothing(90, 4, 30, 12);
+  const cv::Rect texture(30, 35, 10, 20);
+  EXPECT_LT(cv::mean(result.confidence(nothing))[0], 0.05);
+  EXPECT_GT(cv::mean(result.confidence(texture))[0], 0.7);
+}
+
+TEST(MultiviewEstimator, BringsTheMapToEveryView)
+{
+  auto settings = crossSettings(5);
+  const auto scene = testing::standardScene(settings.size);
+  const auto input = testing::renderScene(scene, settings);
+  MultiviewEstimator estimator;
+  ThreadPool pool(2);
+  RunContext context(pool);
+  EstimateRequest request;
+  request.disparity_range = STANDARD_RANGE;
+  request.view_disparities = true;
+  const auto result = estimator.estimate(input.light_field, request, context);
+  ASSERT_EQ(result.view_disparities.size(), input.light_field.views.size());
+  for (const ViewDisparity& map : result.view_disparities)
+  {
+    const View& view = input.light_field.views[map.view_index];
+    const cv::Mat truth = testing::renderTruth(scene, settings.size, view.steps);
+    EXPECT_TRUE(cv::checkRange(map.disparity)) << toString(view.grid);
+    EXPECT_LT(testing::badPercentage(map.disparity, truth, 0.1), 8.0) << toString(view.grid);
+  }
 }
 
 struct Array
@@ -172,7 +243,7 @@ TEST(MultiviewEstimator, NamesOptionsThatCannotBeUsed)
   MultiviewOptions options;
   EXPECT_TRUE(validate(options).empty());
   options.label_step_px = 0.0F;
-  options.refinements = -1;
+  options.refinements = -2;
   EXPECT_EQ(validate(options).size(), 2U);
   EXPECT_THROW(multiviewPresetFromString("fastest"), InputError);
   EXPECT_EQ(multiviewPresetFromString(toString(MultiviewPreset::Quality)), MultiviewPreset::Quality);

@@ -12,9 +12,9 @@ namespace light_field_depth
 /// How much time to spend.
 enum class MultiviewPreset
 {
-  Quality,   ///< colour everywhere, more passes
-  Balanced,  ///< colour everywhere
-  Realtime   ///< the search on brightness alone, one refinement
+  Quality,   ///< colour everywhere, four refinements
+  Balanced,  ///< colour everywhere, two refinements
+  Realtime   ///< brightness alone but at edges, one refinement
 };
 
 /// "quality", "balanced", "realtime".
@@ -22,27 +22,31 @@ std::string toString(MultiviewPreset preset);
 /// The inverse of toString(). @throw InputError that lists the names.
 MultiviewPreset multiviewPresetFromString(const std::string& name);
 
-/// Settings of the multi-view method. Disparities are meant for the outermost view REFERENCE_BASELINE grid
-/// steps away from the reference; wider and narrower arrays scale them, so that they stand for the same
-/// motion in the outermost view.
+/// Settings of the multi-view method. Disparities are meant for an outermost view four grid steps away from
+/// the reference; wider and narrower arrays scale them, so that they stand for the same motion in the
+/// outermost view. Costs are in units of which 240 is the worst matching cost. What depends on noise starts
+/// from these values and grows with the noise that is measured.
 struct MultiviewOptions
 {
+  /// PRESET_NUMBER leaves a number to the preset.
+  static constexpr int PRESET_NUMBER = -1;
+
   MultiviewPreset preset = MultiviewPreset::Balanced;
   /// Distance between the disparities that are tried, in pixels; smaller is slower and finer.
   float label_step_px = 0.125F;
-  /// P1: cost of a change of disparity by one label between neighbours, 240 being the worst matching cost.
-  /// Raise it where the result is noisy, lower it where slanted surfaces show steps.
+  /// P1: cost of a change of disparity by one label between neighbours. Raise it where the result is noisy,
+  /// lower it where slanted surfaces show steps.
   int small_change_penalty = 30;
   /// P2: cost of any larger change where the image has no edge. Raise it for large smooth objects, lower it
   /// for fine structures.
   int large_change_penalty = 1200;
-  /// Times that the views' occlusions are found from the map and the search repeated. Passes beyond the
-  /// preset's number cost time and rarely help.
+  /// Times that the views' occlusions are found from the map and the search repeated. More than one costs
+  /// time and rarely helps.
   int visibility_passes = 1;
   /// Decide by colour to which side a pixel at a depth edge belongs.
   bool edge_sides = true;
-  /// Times that the disparity is refined below the label step.
-  int refinements = 2;
+  /// Times that the disparity is refined below the label step; more help smooth surfaces with gloss.
+  int refinements = PRESET_NUMBER;
   /// Let the brightness of a surface change linearly with the position of the view (gloss, soft light).
   bool brightness_slope = true;
   /// Smoothness of the refinement; raise it for smoother surfaces.

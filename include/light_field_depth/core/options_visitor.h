@@ -23,12 +23,27 @@ void visitOptions(Options& options, Visitor&& visit)
   visit("min_confidence", options.min_confidence);
   visit("dense_cloud_min_confidence", options.dense_cloud.min_confidence);
   visit("dense_cloud_voxel_size_m", options.dense_cloud.voxel_size_m);
+  visit("multiview_preset", options.multiview.preset);
+  visit("multiview_label_step_px", options.multiview.label_step_px);
+  visit("multiview_small_change_penalty", options.multiview.small_change_penalty);
+  visit("multiview_large_change_penalty", options.multiview.large_change_penalty);
+  visit("multiview_visibility_passes", options.multiview.visibility_passes);
+  visit("multiview_edge_sides", options.multiview.edge_sides);
+  visit("multiview_refinements", options.multiview.refinements);
+  visit("multiview_brightness_slope", options.multiview.brightness_slope);
+  visit("multiview_refinement_smoothness", options.multiview.refinement_smoothness);
 }
 
 /// @throw InputError that lists the names
 inline void fromString(const std::string& name, Method& value)
 {
   value = methodFromString(name);
+}
+
+/// @throw InputError that lists the names
+inline void fromString(const std::string& name, MultiviewPreset& value)
+{
+  value = multiviewPresetFromString(name);
 }
 
 /// @throw InputError that lists the names

@@ -106,6 +106,8 @@ public:
 
   void run(int first, int last)
   {
+    first_ = first;
+    last_ = last;
     int arm_row = std::max(0, first - settings_.window_radius - RESIDUAL_RADIUS);
     int pair_row = std::max(0, first - settings_.window_radius);
     for (int y = first; y < last; ++y)
@@ -211,6 +213,14 @@ private:
     {
       smallest[i % width] = std::min(smallest[i % width], boxes[i]);
     }
+    if (y >= first_ && y < last_)
+    {
+      auto* const residual = result_.residual.ptr<float>(y);
+      for (int x = 0; x < width_; ++x)
+      {
+        residual[x] = smallest[x] - RESIDUAL_FLOOR;
+      }
+    }
     for (int pair = 0; pair < DIRECTION_PAIRS; ++pair)
     {
       std::fill(pairRow(y, pair), pairRow(y, pair) + arm_stride_, 0.0F);
@@ -240,12 +250,12 @@ private:
     const std::size_t width = stride_;
     auto* const weight = result_.weight.ptr<float>(y);
     auto* const target = result_.target.ptr<float>(y);
-    auto* const residual = result_.residual.ptr<float>(y);
     const auto* const disparity = disparity_.ptr<float>(y);
     const auto pixels = static_cast<std::size_t>(width_);
     std::fill(weight, weight + pixels, 0.0F);
     std::fill(target, target + pixels, 0.0F);
-    std::fill(residual, residual + pixels, 0.0F);
+    auto* const disagreement = result_.disagreement.ptr<float>(y);
+    std::fill(disagreement, disagreement + pixels, 0.0F);
     for (int pair = 0; pair < DIRECTION_PAIRS; ++pair)
     {
       sumRows(
@@ -271,9 +281,10 @@ private:
           curvature -= kg * kg * inverse;
           gradient += kg * kr * inverse;
         }
-        weight[x] += std::max(0.0F, curvature);
+        curvature = std::max(0.0F, curvature);
+        weight[x] += curvature;
         target[x] += gradient;
-        residual[x] += box[MOMENT_RESIDUAL * width + x];
+        disagreement[x] += gradient * gradient / (curvature + TINY);
       }
     }
     const float window =
@@ -281,7 +292,10 @@ private:
     const float limit = settings_.max_step_px;
     for (std::size_t x = 0; x < pixels; ++x)
     {
-      const float step = std::clamp(target[x] / (weight[x] + TINY), -limit, limit);
+      const float minimum = target[x] / (weight[x] + TINY);
+      const float spread = disagreement[x] / (weight[x] + TINY) - minimum * minimum;
+      disagreement[x] = std::sqrt(std::max(0.0F, spread));
+      const float step = std::clamp(minimum, -limit, limit);
       target[x] = disparity[x] + step;
       weight[x] = std::min(weight[x] / window, settings_.max_weight);
     }
@@ -297,6 +311,8 @@ private:
   std::size_t arms_;
   std::size_t stride_;  ///< of one row of numbers
   std::size_t arm_stride_;
+  int first_ = 0;
+  int last_ = 0;
   int arm_ring_;
   int pair_ring_;
 };
@@ -307,6 +323,7 @@ void Linearizer::run(const ViewSet& views, const cv::Mat& disparity, const Linea
   result.weight.create(disparity.size(), CV_32FC1);
   result.target.create(disparity.size(), CV_32FC1);
   result.residual.create(disparity.size(), CV_32FC1);
+  result.disagreement.create(disparity.size(), CV_32FC1);
   pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {

@@ -187,14 +187,9 @@ void prepareViews(const LightField& light_field, const ViewSetSettings& settings
                    });
 }
 
-double widestBaseline(const ViewSet& view_set)
+void preparePlanar(const cv::Mat& image, const ViewSetSettings& settings, int pad, PlanarImage& planar)
 {
-  double widest = 0.0;
-  for (const PreparedView& view : view_set.views)
-  {
-    widest = std::max(widest, std::hypot(view.steps.x, view.steps.y));
-  }
-  return widest;
+  toPlanar(preparedImage(image, settings), pad, planar);
 }
 
 }  // namespace light_field_depth::multiview

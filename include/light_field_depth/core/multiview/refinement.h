@@ -16,9 +16,12 @@ namespace light_field_depth::multiview
 /// Where the quadratic approximation of the matching error of all views has its minimum.
 struct Linearization
 {
-  cv::Mat weight;    ///< CV_32FC1, curvature of the error: how well the images fix the disparity
-  cv::Mat target;    ///< CV_32FC1, disparity of the minimum
-  cv::Mat residual;  ///< CV_32FC1, mean absolute difference of the views to the reference, three channels
+  cv::Mat weight;  ///< CV_32FC1, curvature of the error: how well the images fix the disparity
+  cv::Mat target;  ///< CV_32FC1, disparity of the minimum
+  /// CV_32FC1, mean absolute difference to the reference in the arm that fits best, sum of three channels.
+  cv::Mat residual;
+  /// CV_32FC1, px: how far the pairs of opposite directions, each alone, would place the minimum apart.
+  cv::Mat disagreement;
 };
 
 struct LinearizationSettings

@@ -91,8 +91,8 @@ struct ViewSet
 void prepareViews(const LightField& light_field, const ViewSetSettings& settings, ThreadPool& pool,
                   ViewSet& view_set);
 
-/// The largest motion of any view, in pixels per unit of disparity: |steps| of the outermost view.
-double widestBaseline(const ViewSet& view_set);
+/// One image as prepareViews() would prepare it.
+void preparePlanar(const cv::Mat& image, const ViewSetSettings& settings, int pad, PlanarImage& planar);
 
 }  // namespace light_field_depth::multiview
 

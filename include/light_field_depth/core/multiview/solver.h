@@ -1,0 +1,81 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_SOLVER_H
+#define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_SOLVER_H
+
+#include <string>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/multiview/cost_volume.h"
+#include "light_field_depth/core/multiview/edge_aware_smoothing.h"
+#include "light_field_depth/core/multiview/edge_side.h"
+#include "light_field_depth/core/multiview/label_space.h"
+#include "light_field_depth/core/multiview/path_aggregation.h"
+#include "light_field_depth/core/multiview/refinement.h"
+#include "light_field_depth/core/multiview/view_set.h"
+#include "light_field_depth/core/multiview/visibility.h"
+#include "light_field_depth/core/run_context.h"
+
+namespace light_field_depth::multiview
+{
+/// Everything that one run of the stages needs to know.
+struct SolverSettings
+{
+  DisparityRange range;
+  float label_step_px = 0.125F;
+  bool grey_search = false;
+  float noise_sigma = 0.0F;    ///< of the views as given, in 8-bit units
+  double blur_sigma_px = 0.0;  ///< of the views before anything else
+  CostSettings cost;
+  PathSettings paths;
+  int visibility_passes = 1;
+  bool decide_edge_sides = true;
+  EdgeSideSettings edge_sides;
+  int refinements = 2;
+  LinearizationSettings linearization;
+  SmoothingSettings smoothing;
+};
+
+/// Runs the stages of the multi-view method in order. Keeps its buffers; one call at a time.
+class Solver
+{
+public:
+  /// @param light_field 8-bit views whose outermost one stands about four steps from the reference
+  void run(const LightField& light_field, const SolverSettings& settings, RunContext& context);
+
+  /// CV_32FC1 results of the last run; overwritten by the next.
+  const cv::Mat& disparity() const { return disparity_; }
+  const cv::Mat& confidence() const { return confidence_; }
+
+private:
+  void prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context);
+  void search(const SolverSettings& settings, RunContext& context);
+  void aggregate(const SolverSettings& settings, RunContext& context);
+  void refine(const SolverSettings& settings, RunContext& context);
+  void judge(const SolverSettings& settings, RunContext& context);
+  const PlanarImage& guide() const
+  {
+    return colour_reference_.width() > 0 ? colour_reference_ : views_.reference;
+  }
+
+  ViewSet views_;
+  PlanarImage colour_reference_;  ///< only where the views are grey and the light field is not
+  LabelSpace labels_;
+  CostVolumeBuilder cost_builder_;
+  CostVolume volume_;
+  PathAggregator aggregator_;
+  VisibleSurfaces surfaces_;
+  Linearizer linearizer_;
+  Linearization linearization_;
+  EdgeAwareSmoother smoother_;
+  cv::Mat label_;
+  cv::Mat scratch_;
+  cv::Mat first_search_;
+  cv::Mat searched_;
+  cv::Mat disparity_;
+  cv::Mat confidence_;
+};
+
+}  // namespace light_field_depth::multiview
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_SOLVER_H

@@ -1,0 +1,133 @@
+#include "light_field_depth/core/multiview/solver.h"
+
+#include <algorithm>
+
+#include <opencv2/imgproc.hpp>
+
+#include "light_field_depth/core/multiview/confidence.h"
+
+namespace light_field_depth::multiview
+{
+namespace
+{
+constexpr int MAX_LABELS = 240;
+constexpr int MEDIAN_SIZE = 5;
+/// A difference of grey values compared with the sum of the differences of three channels.
+constexpr float GREY_SHARE = 0.4F;
+
+void save(const RunContext& context, const char* name, const cv::Mat& values)
+{
+  if (context.save_intermediate && !values.empty())
+  {
+    context.save_intermediate(name, values);
+  }
+}
+
+}  // namespace
+
+void Solver::run(const LightField& light_field, const SolverSettings& settings, RunContext& context)
+{
+  prepare(light_field, settings, context);
+  search(settings, context);
+  if (settings.decide_edge_sides)
+  {
+    const StageTimer timer(context, "edge sides");
+    decideEdgeSides(guide(), settings.edge_sides, context.pool, disparity_, scratch_);
+  }
+  disparity_.copyTo(searched_);
+  save(context, "multiview_searched", searched_);
+  refine(settings, context);
+  judge(settings, context);
+}
+
+void Solver::prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context)
+{
+  const StageTimer timer(context, "prepare");
+  labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
+  ViewSetSettings view_settings;
+  view_settings.grey = settings.grey_search;
+  view_settings.blur_sigma_px = settings.blur_sigma_px;
+  view_settings.range = {labels_.disparity(0.0F), labels_.disparity(static_cast<float>(labels_.count - 1))};
+  prepareViews(light_field, view_settings, context.pool, views_);
+  colour_reference_ = PlanarImage();
+  if (settings.grey_search && light_field.reference().image.channels() > 1)
+  {
+    view_settings.grey = false;
+    preparePlanar(light_field.reference().image, view_settings, views_.reference.pad(), colour_reference_);
+  }
+}
+
+void Solver::search(const SolverSettings& settings, RunContext& context)
+{
+  CostSettings cost = settings.cost;
+  if (views_.reference.channels() == 1)
+  {
+    cost.truncation = std::max(1, cvRound(GREY_SHARE * static_cast<float>(cost.truncation)));
+    cost.unseen_penalty = cvRound(GREY_SHARE * static_cast<float>(cost.unseen_penalty));
+  }
+  cost.min_seeing_views = std::min(cost.min_seeing_views, static_cast<int>(views_.views.size()));
+  {
+    const StageTimer timer(context, "cost");
+    cost_builder_.buildFromArms(views_, labels_, cost, context.pool, volume_);
+  }
+  aggregate(settings, context);
+  disparity_.copyTo(first_search_);
+  save(context, "multiview_first_search", first_search_);
+  for (int pass = 0; pass < settings.visibility_passes; ++pass)
+  {
+    {
+      const StageTimer timer(context, "visibility");
+      surfaces_.warp(disparity_, views_, labels_, context.pool);
+    }
+    {
+      const StageTimer timer(context, "visible cost");
+      cost_builder_.buildFromVisible(views_, labels_, surfaces_, cost, context.pool, volume_);
+    }
+    aggregate(settings, context);
+  }
+}
+
+void Solver::aggregate(const SolverSettings& settings, RunContext& context)
+{
+  {
+    const StageTimer timer(context, "aggregate");
+    aggregator_.aggregate(volume_, guide(), settings.paths, context.pool, label_);
+  }
+  const StageTimer timer(context, "median");
+  cv::medianBlur(label_, scratch_, MEDIAN_SIZE);
+  scratch_.convertTo(disparity_, CV_32F, labels_.step_px, labels_.first_px);
+}
+
+void Solver::refine(const SolverSettings& settings, RunContext& context)
+{
+  {
+    const StageTimer timer(context, "smooth");
+    smoother_.setGuide(guide(), settings.smoothing, context.pool);
+  }
+  for (int i = 0; i < settings.refinements; ++i)
+  {
+    {
+      const StageTimer timer(context, "linearize");
+      linearizer_.run(views_, disparity_, settings.linearization, context.pool, linearization_);
+    }
+    const StageTimer timer(context, "smooth");
+    smoother_.run(linearization_.weight, linearization_.target, settings.smoothing, context.pool, disparity_);
+  }
+}
+
+void Solver::judge(const SolverSettings& settings, RunContext& context)
+{
+  if (settings.refinements == 0)
+  {
+    const StageTimer timer(context, "linearize");
+    linearizer_.run(views_, disparity_, settings.linearization, context.pool, linearization_);
+  }
+  save(context, "multiview_curvature", linearization_.weight);
+  save(context, "multiview_residual", linearization_.residual);
+  save(context, "multiview_disagreement", linearization_.disagreement);
+  const StageTimer timer(context, "confidence");
+  estimateConfidence({disparity_, searched_, first_search_, linearization_, settings.noise_sigma},
+                     context.pool, confidence_);
+}
+
+}  // namespace light_field_depth::multiview
