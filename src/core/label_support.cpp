@@ -1,0 +1,234 @@
+#include "label_support.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+namespace light_field_depth
+{
+namespace
+{
+/// The winner takes all: per pixel the label of least cost, and the least cost at labels that are not its
+/// neighbours.
+struct Winners
+{
+  std::vector<std::uint16_t> label;
+  std::vector<std::uint16_t> cost;
+  std::vector<std::uint16_t> rival;
+};
+
+constexpr std::uint16_t NO_COST = std::numeric_limits<std::uint16_t>::max();
+constexpr int PIXELS_PER_CHUNK = 4096;
+/// Labels nearer than this to the winner belong to the same minimum; 1.5 pixels of displacement.
+constexpr int RIVAL_DISTANCE = 3;
+
+void findWinnersIn(const CostVolume& volume, std::size_t first, std::size_t last, Winners& winners)
+{
+  for (int label = 0; label < volume.labels; ++label)
+  {
+    const std::uint16_t* const cost = volume.cost(label);
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const bool better = cost[i] < winners.cost[i];
+      winners.label[i] = better ? static_cast<std::uint16_t>(label) : winners.label[i];
+      winners.cost[i] = better ? cost[i] : winners.cost[i];
+    }
+  }
+  for (int label = 0; label < volume.labels; ++label)
+  {
+    const std::uint16_t* const cost = volume.cost(label);
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const bool apart = std::abs(label - winners.label[i]) >= RIVAL_DISTANCE;
+      winners.rival[i] = std::min(winners.rival[i], apart ? cost[i] : NO_COST);
+    }
+  }
+}
+
+Winners findWinners(const CostVolume& volume, ThreadPool& pool)
+{
+  Winners winners;
+  winners.label.assign(volume.area(), 0);
+  winners.cost.assign(volume.area(), NO_COST);
+  winners.rival.assign(volume.area(), NO_COST);
+  pool.parallelFor(
+      0, volume.size.area(), PIXELS_PER_CHUNK,
+      [&](int first, int last)
+      { findWinnersIn(volume, static_cast<std::size_t>(first), static_cast<std::size_t>(last), winners); });
+  return winners;
+}
+
+/// A cost that a wrong disparity must exceed before the right one, of the given cost, is believed.
+class Contrast
+{
+public:
+  /// @param typical the median of the costs of the best labels, which measures noise
+  explicit Contrast(std::uint16_t typical) : margin_(SWEEP_COST_PER_GREY_LEVEL + typical / 2) {}
+
+  bool isClear(int cost, int rival) const { return 2 * rival > 3 * cost + 2 * margin_; }
+
+private:
+  int margin_;
+};
+
+std::uint16_t median(std::vector<std::uint16_t> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool isCertain(const Winners& winners, std::size_t i, const Contrast& contrast)
+{
+  return winners.rival[i] != NO_COST && contrast.isClear(winners.cost[i], winners.rival[i]);
+}
+
+/// The labels between two quantiles of the pixels that are certain of their label.
+std::optional<LabelRange> coreOf(const Winners& winners, const Contrast& contrast, int labels)
+{
+  constexpr double LEFT_OUT = 0.02;
+  constexpr int LEAST_PIXELS = 16;
+  std::vector<int> histogram(static_cast<std::size_t>(labels), 0);
+  int total = 0;
+  for (std::size_t i = 0; i < winners.label.size(); ++i)
+  {
+    const int certain = isCertain(winners, i, contrast) ? 1 : 0;
+    histogram[winners.label[i]] += certain;
+    total += certain;
+  }
+  if (total < LEAST_PIXELS)
+  {
+    return std::nullopt;
+  }
+  const int left_out = static_cast<int>(LEFT_OUT * total);
+  LabelRange core = {0, labels - 1};
+  for (int sum = histogram[0]; sum <= left_out; sum += histogram[static_cast<std::size_t>(core.first)])
+  {
+    ++core.first;
+  }
+  for (int sum = histogram.back(); sum <= left_out; sum += histogram[static_cast<std::size_t>(core.last)])
+  {
+    --core.last;
+  }
+  return core;
+}
+
+/// Least cost inside a range of labels.
+std::vector<std::uint16_t> leastCost(const CostVolume& volume, const LabelRange& range)
+{
+  std::vector<std::uint16_t> least(volume.area(), NO_COST);
+  for (int label = range.first; label <= range.last; ++label)
+  {
+    const std::uint16_t* const cost = volume.cost(label);
+    for (std::size_t i = 0; i < least.size(); ++i)
+    {
+      least[i] = std::min(least[i], cost[i]);
+    }
+  }
+  return least;
+}
+
+/// Collects the pixels of a connected patch whose labels are alike from pixel to pixel.
+class PatchFinder
+{
+public:
+  /// @param member pixels that may belong to a patch; cleared as patches are taken
+  PatchFinder(const Winners& winners, cv::Size size, std::vector<std::uint8_t>& member)
+      : winners_(winners), size_(size), member_(member)
+  {
+  }
+
+  const std::vector<int>& patchAt(int seed)
+  {
+    patch_.clear();
+    take(seed);
+    for (std::size_t next = 0; next < patch_.size(); ++next)
+    {
+      const int pixel = patch_[next];
+      const int x = pixel % size_.width;
+      visit(pixel, pixel - 1, x > 0);
+      visit(pixel, pixel + 1, x + 1 < size_.width);
+      visit(pixel, pixel - size_.width, pixel >= size_.width);
+      visit(pixel, pixel + size_.width, pixel + size_.width < size_.area());
+    }
+    return patch_;
+  }
+
+private:
+  void take(int pixel)
+  {
+    member_[static_cast<std::size_t>(pixel)] = 0;
+    patch_.push_back(pixel);
+  }
+
+  void visit(int from, int to, bool inside)
+  {
+    if (inside && member_[static_cast<std::size_t>(to)] != 0 &&
+        std::abs(winners_.label[static_cast<std::size_t>(from)] -
+                 winners_.label[static_cast<std::size_t>(to)]) < RIVAL_DISTANCE)
+    {
+      take(to);
+    }
+  }
+
+  const Winners& winners_;
+  cv::Size size_;
+  std::vector<std::uint8_t>& member_;
+  std::vector<int> patch_;
+};
+
+/// Widens the core by the labels of connected patches that are certain of them or that no label inside the
+/// core explains.
+LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners& winners,
+                 const Contrast& contrast)
+{
+  constexpr std::size_t LEAST_PATCH_PX = 8;
+  const std::vector<std::uint16_t> inside = leastCost(volume, core);
+  std::vector<std::uint8_t> member(volume.area(), 0);
+  for (std::size_t i = 0; i < member.size(); ++i)
+  {
+    const bool outside = winners.label[i] < core.first || winners.label[i] > core.last;
+    const bool clear = contrast.isClear(winners.cost[i], inside[i]) || isCertain(winners, i, contrast);
+    member[i] = outside && clear ? 1 : 0;
+  }
+  PatchFinder finder(winners, volume.size, member);
+  LabelRange supported = core;
+  for (int i = 0; i < volume.size.area(); ++i)
+  {
+    if (member[static_cast<std::size_t>(i)] == 0)
+    {
+      continue;
+    }
+    const std::vector<int>& patch = finder.patchAt(i);
+    if (patch.size() < LEAST_PATCH_PX)
+    {
+      continue;
+    }
+    for (const int pixel : patch)
+    {
+      const int label = winners.label[static_cast<std::size_t>(pixel)];
+      supported.first = std::min(supported.first, label);
+      supported.last = std::max(supported.last, label);
+    }
+  }
+  return supported;
+}
+
+}  // namespace
+
+std::optional<LabelRange> findSupportedLabels(const CostVolume& volume, ThreadPool& pool)
+{
+  const Winners winners = findWinners(volume, pool);
+  const Contrast contrast(median(winners.cost));
+  const std::optional<LabelRange> core = coreOf(winners, contrast, volume.labels);
+  if (!core)
+  {
+    return std::nullopt;
+  }
+  return widen(*core, volume, winners, contrast);
+}
+
+}  // namespace light_field_depth

@@ -1,0 +1,29 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_CORE_LABEL_SUPPORT_H
+#define LIGHT_FIELD_DEPTH_SRC_CORE_LABEL_SUPPORT_H
+
+#include <optional>
+
+#include "light_field_depth/core/thread_pool.h"
+#include "plane_sweep.h"
+
+namespace light_field_depth
+{
+/// Labels of a plane sweep, both ends included.
+struct LabelRange
+{
+  int first = 0;
+  int last = 0;
+};
+
+/// The labels that the images of a plane sweep give evidence for.
+///
+/// A pixel is certain of its best label if every label outside that minimum costs clearly more. The bulk of
+/// the certain pixels makes the core of the range; connected patches of pixels outside it widen the range if
+/// they are certain, too, or if their best label costs clearly less than every label of the core. So neither
+/// noise nor repeated texture widens it, and a small object does.
+/// @return nothing if hardly any pixel is certain
+std::optional<LabelRange> findSupportedLabels(const CostVolume& volume, ThreadPool& pool);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_CORE_LABEL_SUPPORT_H
