@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "light_field_depth/core/disparity_range.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/multiview/solver.h"
 #include "light_field_depth/core/multiview/view_maps.h"
@@ -46,7 +47,7 @@ double widestBaseline(const LightField& light_field)
   double widest = 0.0;
   for (const View& view : light_field.views)
   {
-    widest = std::max(widest, std::hypot(view.steps.x, view.steps.y));
+    widest = std::max({widest, std::abs(view.steps.x), std::abs(view.steps.y)});
   }
   return widest;
 }
@@ -157,12 +158,12 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
                                                RunContext& context)
 {
   const LightField chosen = toEightBit(chosenViews(light_field, request.views));
-  if (!request.disparity_range)
-  {
-    throw InputError("The multiview method needs a disparity_range.");
-  }
   DisparityEstimate estimate;
-  estimate.range = *request.disparity_range;
+  {
+    const StageTimer timer(context, "range");
+    estimate.range =
+        request.disparity_range ? *request.disparity_range : findDisparityRange(chosen, context.pool);
+  }
   estimate.views_used = chosen.views.size();
   const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
   SolverSettings settings = solverSettings(options_);

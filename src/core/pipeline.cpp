@@ -15,8 +15,8 @@ namespace light_field_depth
 namespace
 {
 constexpr std::array<std::pair<Method, const char*>, 2> METHOD_NAMES = {{
-    {Method::Paper2017, "paper2017"},
     {Method::Multiview, "multiview"},
+    {Method::Paper2017, "paper2017"},
 }};
 
 void append(std::vector<std::string>& problems, std::vector<std::string> more)

@@ -22,11 +22,11 @@ namespace light_field_depth
 {
 enum class Method
 {
-  Paper2017,  ///< the method of the 2017 paper, stage by stage
-  Multiview   ///< all views solved together, aware of occlusions
+  Multiview,  ///< all views solved together, aware of occlusions
+  Paper2017   ///< the method of the 2017 paper, stage by stage
 };
 
-/// "paper2017", "multiview".
+/// "multiview", "paper2017".
 std::string toString(Method method);
 /// The inverse of toString(). @throw InputError that lists the names.
 Method methodFromString(const std::string& name);
@@ -36,7 +36,7 @@ std::vector<std::string> methodNames();
 /// All settings of a run. Each stage's struct is the one home of its defaults.
 struct PipelineOptions
 {
-  Method method = Method::Paper2017;
+  Method method = Method::Multiview;
   ViewSelection views = ViewSelection::Auto;
   /// In pixels per grid step; found from the images when absent.
   std::optional<DisparityRange> disparity_range;
