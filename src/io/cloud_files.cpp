@@ -39,6 +39,10 @@ pcl::PointCloud<pcl::PointXYZRGB> finitePoints(const std::vector<ColoredPoint>& 
 std::size_t writePly(const std::filesystem::path& path, const std::vector<ColoredPoint>& points)
 {
   const pcl::PointCloud<pcl::PointXYZRGB> cloud = finitePoints(points);
+  if (cloud.empty())
+  {
+    return 0;  // PCL refuses to write a file without points
+  }
   writeWhole(path,
              [&](const std::filesystem::path& temporary)
              {

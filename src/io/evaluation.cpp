@@ -181,12 +181,15 @@ std::string toText(const Evaluation& evaluation)
 
 std::string toJson(const Evaluation& evaluation)
 {
-  nlohmann::ordered_json json;
+  std::string text;
   for (const auto& [name, value] : namedFigures(evaluation))
   {
-    json[name] = value;
+    text.append(text.empty() ? "{" : ", ")
+        .append(nlohmann::json(name).dump())
+        .append(": ")
+        .append(nlohmann::json(value).dump());
   }
-  return json.dump();
+  return text + "}";
 }
 
 }  // namespace light_field_depth

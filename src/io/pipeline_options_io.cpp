@@ -20,6 +20,10 @@ namespace
 template <class Number>
 std::string shortestText(Number number)
 {
+  if constexpr (std::is_integral_v<Number>)
+  {
+    return std::to_string(number);
+  }
   std::string text;
   for (int digits = std::numeric_limits<Number>::digits10;
        digits <= std::numeric_limits<Number>::max_digits10; ++digits)
@@ -37,6 +41,17 @@ std::string shortestText(Number number)
   return text;
 }
 
+/// "3,4,5"
+std::string listText(const std::vector<int>& numbers)
+{
+  std::string text;
+  for (const int number : numbers)
+  {
+    text.append(text.empty() ? "" : ",").append(std::to_string(number));
+  }
+  return text;
+}
+
 template <class Field>
 OptionValue toOptionValue(const Field& field)
 {
@@ -44,6 +59,10 @@ OptionValue toOptionValue(const Field& field)
                 std::is_same_v<Field, std::string>)
   {
     return field;
+  }
+  else if constexpr (std::is_same_v<Field, std::vector<int>>)
+  {
+    return listText(field);
   }
   else if constexpr (std::is_same_v<Field, float>)
   {
@@ -58,6 +77,22 @@ OptionValue toOptionValue(const Field& field)
 [[noreturn]] void failValue(const std::string& name, const std::string& text, const std::string& wanted)
 {
   throw InputError("The setting " + name + " cannot be '" + text + "'; it must be " + wanted + ".");
+}
+
+std::vector<int> parseList(const std::string& name, const std::string& text)
+{
+  std::vector<int> numbers;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');)
+  {
+    const auto number = numberFromText<int>(part);
+    if (!number)
+    {
+      failValue(name, text, "whole numbers with commas between them");
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
 }
 
 bool parseBool(const std::string& name, const std::string& text)
@@ -84,6 +119,10 @@ void parseInto(const std::string& name, const std::string& text, Field& field)
   {
     field = text;
   }
+  else if constexpr (std::is_same_v<Field, std::vector<int>>)
+  {
+    field = parseList(name, text);
+  }
   else if constexpr (std::is_arithmetic_v<Field>)
   {
     const auto number = numberFromText<Field>(text);
@@ -99,12 +138,36 @@ void parseInto(const std::string& name, const std::string& text, Field& field)
   }
 }
 
+/// A value of an options file as setOption() takes it: a scalar, or a list of scalars with commas.
+std::string settingText(const YamlFields& fields, const std::string& name)
+{
+  if (!fields.has(name))
+  {
+    return "";
+  }
+  const YAML::Node value = fields.node(name);
+  if (value.IsScalar())
+  {
+    return value.Scalar();
+  }
+  std::string text;
+  for (const auto& item : value)
+  {
+    if (!value.IsSequence() || !item.IsScalar())
+    {
+      fields.fail(name, "a single value or a list");
+    }
+    text.append(text.empty() ? "" : ",").append(item.Scalar());
+  }
+  return text;
+}
+
 std::string knownNames(const PipelineOptions& options)
 {
   std::string names;
   for (const NamedOption& option : listOptions(options))
   {
-    names += (names.empty() ? "" : ", ") + option.name;
+    names.append(names.empty() ? "" : ", ").append(option.name);
   }
   return names;
 }
@@ -175,13 +238,9 @@ void readOptionsFile(const std::filesystem::path& path, PipelineOptions& options
           DisparityRange{static_cast<float>(range->first), static_cast<float>(range->second)};
       continue;
     }
-    if (!entry.second.IsScalar())
-    {
-      fields.fail(name, "a single value");
-    }
     try
     {
-      setOption(options, name, entry.second.Scalar());
+      setOption(options, name, settingText(fields, name));
     }
     catch (const InputError& error)
     {

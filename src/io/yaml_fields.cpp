@@ -21,20 +21,23 @@ std::string flowText(const YAML::Node& value)
 
 void YamlFields::allowOnly(std::initializer_list<const char*> names) const
 {
+  std::string known;
+  for (const char* const name : names)
+  {
+    known.append(known.empty() ? "" : ", ").append(name);
+  }
+  const auto refuse = [&](const std::string& field)
+  {
+    throw InputError("'" + file_.string() + "' has an unknown field '" + field + "'" +
+                     (name_.empty() ? "" : " in " + name_) + "; the known ones are " + known + ".");
+  };
   for (const auto& entry : map_)
   {
     const std::string field = entry.first.IsScalar() ? entry.first.Scalar() : flowText(entry.first);
-    if (std::find(names.begin(), names.end(), field) != names.end())
+    if (std::find(names.begin(), names.end(), field) == names.end())
     {
-      continue;
+      refuse(field);
     }
-    std::string known;
-    for (const char* const name : names)
-    {
-      known.append(known.empty() ? "" : ", ").append(name);
-    }
-    throw InputError("'" + file_.string() + "' has an unknown field '" + field + "'" +
-                     (name_.empty() ? "" : " in " + name_) + "; the known ones are " + known + ".");
   }
 }
 

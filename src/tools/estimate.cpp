@@ -170,6 +170,13 @@ std::vector<std::string> writeResults(const fs::path& folder, const lfd::Pipelin
     files.emplace_back(name);
     return folder / name;
   };
+  const auto write_cloud = [&](const char* name, const std::vector<lfd::ColoredPoint>& points)
+  {
+    if (lfd::writePly(folder / name, points) > 0)
+    {
+      files.emplace_back(name);
+    }
+  };
   const cv::Mat& disparity = result.estimate.disparity;
   lfd::writePfm(next("disparity.pfm"), disparity);
   lfd::writePfm(next("confidence.pfm"), result.estimate.confidence);
@@ -178,14 +185,8 @@ std::vector<std::string> writeResults(const fs::path& folder, const lfd::Pipelin
   {
     lfd::writePfm(next("depth.pfm"), result.depth);
   }
-  if (!result.organized_cloud.empty())
-  {
-    lfd::writePly(next("cloud.ply"), result.organized_cloud);
-  }
-  if (!result.dense_cloud.empty())
-  {
-    lfd::writePly(next("dense_cloud.ply"), result.dense_cloud);
-  }
+  write_cloud("cloud.ply", result.organized_cloud);
+  write_cloud("dense_cloud.ply", result.dense_cloud);
   files.emplace_back("report.json");
   return files;
 }

@@ -8,6 +8,47 @@
 
 namespace light_field_depth
 {
+/// The part of visitOptions() that the method of 2017 has for itself.
+/// @param options Paper2017Options, const or not
+template <class Options, class Visitor>
+void visitPaper2017Options(Options& options, Visitor& visit)
+{
+  static_assert(std::is_same_v<std::remove_const_t<Options>, Paper2017Options>);
+  visit("volume_rows", options.volumes.rows);
+  visit("volume_columns", options.volumes.columns);
+  visit("initializer", options.initializer);
+  visit("match_directions", options.match_directions);
+  auto& matching = options.patch_match;
+  visit("cpm_levels", matching.levels);
+  visit("cpm_pyramid_ratio", matching.pyramid_ratio);
+  visit("cpm_grid_spacing_px", matching.grid_spacing_px);
+  visit("cpm_iterations", matching.iterations);
+  visit("cpm_search_radius_px", matching.search_radius_px);
+  visit("cpm_max_displacement_px", matching.max_displacement_px);
+  visit("cpm_subpixel", matching.subpixel);
+  visit("cpm_consistency_threshold_px", matching.consistency_threshold_px);
+  visit("cpm_confidence_sigma_px", matching.confidence_sigma_px);
+  visit("cpm_border_px", matching.border_px);
+  auto& filter = options.feature_flow;
+  visit("feature_flow", filter.enabled);
+  visit("filter_sigma_spatial_px", filter.sigma_spatial_px);
+  visit("filter_sigma_range", filter.sigma_range);
+  visit("filter_angular", filter.angular);
+  visit("filter_sigma_angular_views", filter.sigma_angular_views);
+  visit("filter_sigma_angular_range", filter.sigma_angular_range);
+  visit("filter_iterations", filter.iterations);
+  auto& variational = options.variational;
+  visit("variational", variational.enabled);
+  visit("variational_views", variational.views);
+  visit("variational_smoothness", variational.smoothness);
+  visit("variational_gradient_weight", variational.gradient_weight);
+  visit("variational_edge_kappa", variational.edge_kappa);
+  visit("variational_presmoothing_px", variational.presmoothing_px);
+  visit("variational_warps", variational.warps);
+  visit("variational_sor_iterations", variational.sor_iterations);
+  visit("variational_sor_omega", variational.sor_omega);
+}
+
 /// Calls visit(name, field) for every setting of a run: the one list of the names by which the command line,
 /// files, reports and parameter servers know the settings. A new setting is one more line here.
 ///
@@ -23,6 +64,7 @@ void visitOptions(Options& options, Visitor&& visit)
   visit("min_confidence", options.min_confidence);
   visit("dense_cloud_min_confidence", options.dense_cloud.min_confidence);
   visit("dense_cloud_voxel_size_m", options.dense_cloud.voxel_size_m);
+  visitPaper2017Options(options.paper2017, visit);
   visit("multiview_preset", options.multiview.preset);
   visit("multiview_label_step_px", options.multiview.label_step_px);
   visit("multiview_small_change_penalty", options.multiview.small_change_penalty);
@@ -50,6 +92,24 @@ inline void fromString(const std::string& name, MultiviewPreset& value)
 inline void fromString(const std::string& name, ViewSelection& value)
 {
   value = viewSelectionFromString(name);
+}
+
+/// @throw InputError that lists the names
+inline void fromString(const std::string& name, FlowInitializer& value)
+{
+  value = flowInitializerFromString(name);
+}
+
+/// @throw InputError that lists the names
+inline void fromString(const std::string& name, MatchDirections& value)
+{
+  value = matchDirectionsFromString(name);
+}
+
+/// @throw InputError that lists the names
+inline void fromString(const std::string& name, RefinementViews& value)
+{
+  value = refinementViewsFromString(name);
 }
 
 }  // namespace light_field_depth

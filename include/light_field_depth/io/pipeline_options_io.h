@@ -10,7 +10,8 @@
 
 namespace light_field_depth
 {
-/// Numbers of single precision are given as the shortest decimal that stands for them; enumerations by name.
+/// Numbers of single precision are given as the shortest decimal that stands for them, enumerations by name,
+/// lists as "3,4,5".
 using OptionValue = std::variant<bool, int, double, std::string>;
 
 struct NamedOption
