@@ -1,0 +1,129 @@
+#include "light_field_depth/ros/light_field_assembler.h"
+
+#include <gtest/gtest.h>
+#include <boost/make_shared.hpp>
+
+#include "expect_sentence.h"
+#include "light_field_depth/ros/view_messages.h"
+#include "support/synthetic_scene.h"
+
+namespace light_field_depth
+{
+namespace
+{
+using testing::expectSentence;
+
+/// The messages of a 3 x 3 array, some of which the tests spoil.
+struct Messages
+{
+  ViewArray array;
+  std::vector<sensor_msgs::ImagePtr> images;
+  std::vector<sensor_msgs::CameraInfoPtr> infos;
+};
+
+Messages messages()
+{
+  Calibration calibration;
+  calibration.focal_length_px = 50.0;
+  calibration.principal_point_px = {19.5, 14.5};
+  calibration.baseline_m = 0.1;
+  calibration.disparity_offset_px = 4.0;
+  testing::SceneSettings settings;
+  settings.size = {40, 30};
+  settings.positions = testing::gridPositions(3, 3);
+  settings.calibration = calibration;
+  const auto scene = testing::renderScene(testing::standardScene(settings.size), settings);
+  Messages result;
+  for (const ViewMessages& view : viewMessages(scene.light_field, calibration, {}))
+  {
+    result.images.push_back(view.image);
+    result.infos.push_back(view.camera_info);
+  }
+  for (const View& view : scene.light_field.views)
+  {
+    result.array.views.push_back({view.grid, "image" + std::to_string(result.array.views.size()), "info"});
+  }
+  result.array.reference = 4;
+  return result;
+}
+
+LightField assemble(LightFieldAssembler& assembler, const Messages& input)
+{
+  return assembler.assemble({input.images.begin(), input.images.end()},
+                            {input.infos.begin(), input.infos.end()});
+}
+
+LightFieldAssembler assemblerFor(const Messages& input)
+{
+  return {input.array, {}, true};
+}
+
+TEST(LightFieldAssembler, MakesTheLightFieldThatWasPublished)
+{
+  const Messages input = messages();
+  LightFieldAssembler assembler = assemblerFor(input);
+  const LightField light_field = assemble(assembler, input);
+  ASSERT_EQ(light_field.views.size(), 9U);
+  EXPECT_EQ(light_field.reference_index, 4U);
+  ASSERT_TRUE(light_field.calibration);
+  EXPECT_NEAR(light_field.calibration->disparity_offset_px, 4.0, 1e-9);
+  EXPECT_NEAR(light_field.views[8].steps.x, 1.0, 1e-9);
+  EXPECT_EQ(light_field.views[2].image.data, input.images[2]->data.data()) << "nothing is copied";
+}
+
+TEST(LightFieldAssembler, FollowsACameraInfoThatChanges)
+{
+  Messages input = messages();
+  LightFieldAssembler assembler = assemblerFor(input);
+  assemble(assembler, input);
+  for (auto& info : input.infos)
+  {
+    info = boost::make_shared<sensor_msgs::CameraInfo>(*info);
+    info->P[3] *= 2.0;
+    info->P[7] *= 2.0;
+  }
+  EXPECT_NEAR(assemble(assembler, input).calibration->baseline_m, 0.2, 1e-9);
+}
+
+TEST(LightFieldAssembler, RecoversFromABadFrame)
+{
+  Messages input = messages();
+  LightFieldAssembler assembler = assemblerFor(input);
+  const double focal_length = input.infos[5]->P[0];
+  input.infos[5]->P[0] = 0.0;
+  expectSentence([&] { assemble(assembler, input); }, {"View (1, 2)", "P[0]"});
+  input.infos[5]->P[0] = focal_length;
+  EXPECT_EQ(assemble(assembler, input).views.size(), 9U);
+}
+
+TEST(LightFieldAssembler, NamesTheViewWhoseImageDoesNotFit)
+{
+  Messages input = messages();
+  LightFieldAssembler assembler = assemblerFor(input);
+  input.infos[0]->width = 80;
+  for (auto& info : input.infos)
+  {
+    info->width = 80;
+  }
+  expectSentence([&] { assemble(assembler, input); }, {"View (0, 0) (image0)", "40 x 30", "80 x 30"});
+
+  Messages mixed = messages();
+  LightFieldAssembler mixed_assembler = assemblerFor(mixed);
+  mixed.images[7]->encoding = "mono8";
+  mixed.images[7]->step = 40;
+  expectSentence([&] { assemble(mixed_assembler, mixed); }, {"View (2, 1)", "8-bit with 1 channel"});
+}
+
+TEST(LightFieldAssembler, TakesParametersInPlaceOfCameraInfo)
+{
+  const Messages input = messages();
+  CalibrationParameters parameters;
+  parameters.focal_length_px = 70.0;
+  parameters.baseline_x_m = 0.3;
+  LightFieldAssembler assembler(input.array, parameters, false);
+  const LightField light_field = assembler.assemble({input.images.begin(), input.images.end()}, {});
+  EXPECT_DOUBLE_EQ(light_field.calibration->baseline_m, 0.3);
+}
+
+}  // namespace
+}  // namespace light_field_depth
