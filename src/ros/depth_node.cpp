@@ -245,6 +245,7 @@ void DepthNode::process(const FrameSet& set, const Audience& audience)
   {
     stats.header = header;
     stats.published = ros::Time::now();
+    stats.disparity_offset = static_cast<float>(light_field.calibration->disparity_offset_px);
     stats.method = toString(settings->pipeline.method);
     stats.frames_published = diagnostics_.framesPublished();
     stats.frames_failed = diagnostics_.framesFailed();
