@@ -1,0 +1,71 @@
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <ros/time.h>
+#include <rosbag/bag.h>
+
+#include "dataset_input.h"
+#include "tool_main.h"
+
+namespace light_field_depth
+{
+namespace
+{
+struct BagOptions
+{
+  std::string file;
+  int count = 10;
+  bool compress = false;
+};
+
+void writeBag(const DatasetInputOptions& input, const BagOptions& options)
+{
+  const CalibratedDataset dataset = readCalibratedDataset(input);
+  if (!dataset.warning.empty())
+  {
+    std::cerr << "dataset_to_bag: " << dataset.warning << std::endl;
+  }
+  std_msgs::Header header;
+  header.frame_id = input.frame_id;
+  const std::vector<ViewMessages> views =
+      viewMessages(dataset.light_field, *dataset.light_field.calibration, header, input.topics);
+
+  rosbag::Bag bag(options.file, rosbag::bagmode::Write);
+  bag.setCompression(options.compress ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed);
+  const ros::WallTime now = ros::WallTime::now();
+  const ros::Time start(now.sec, now.nsec);
+  for (int frame = 0; frame < options.count; ++frame)
+  {
+    const ros::Time stamp = start + ros::Duration(frame / input.rate_hz);
+    for (const ViewMessages& view : views)
+    {
+      view.camera_info->header.stamp = stamp;
+      view.image->header.stamp = stamp;
+      bag.write(view.camera_info_topic, stamp, *view.camera_info);
+      bag.write(view.image_topic, stamp, *view.image);
+    }
+  }
+  bag.close();
+  std::cout << options.file << ": " << options.count << " frame(s) of " << views.size() << " views, "
+            << views.front().image_topic << " to " << views.back().image_topic << std::endl;
+}
+
+}  // namespace
+}  // namespace light_field_depth
+
+int main(int argc, char** argv)
+{
+  using namespace light_field_depth;
+  CLI::App app("Writes a light field from a folder into a bag, as a camera array would be recorded.",
+               "dataset_to_bag");
+  DatasetInputOptions input;
+  BagOptions options;
+  addDatasetInputOptions(app, input);
+  app.add_option("--output", options.file, "The bag")->required();
+  app.add_option("--count", options.count, "Frames, all alike but for their stamps")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  app.add_flag("--compress", options.compress, "LZ4");
+  return runTool(app, argc, argv, [&] { writeBag(input, options); });
+}
