@@ -61,6 +61,22 @@ GridPosition referenceFrom(const std::string& text)
   return position;
 }
 
+/// Datasets number rows and columns from 0 or from 1; topics begin with 0, as the arrays in config do.
+void numberFromZero(LightField& light_field)
+{
+  GridPosition first = light_field.views.front().grid;
+  for (const View& view : light_field.views)
+  {
+    first.row = std::min(first.row, view.grid.row);
+    first.column = std::min(first.column, view.grid.column);
+  }
+  for (View& view : light_field.views)
+  {
+    view.grid.row -= first.row;
+    view.grid.column -= first.column;
+  }
+}
+
 std::string nominalWarning(const std::string& folder, const Calibration& calibration)
 {
   std::ostringstream text;
@@ -109,7 +125,8 @@ CalibratedDataset readCalibratedDataset(const DatasetInputOptions& options)
   {
     dataset_options.reference = referenceFrom(options.reference);
   }
-  const Dataset dataset = readDataset(options.folder, dataset_options);
+  Dataset dataset = readDataset(options.folder, dataset_options);
+  numberFromZero(dataset.light_field);
   CalibratedDataset result;
   result.light_field = selectViews(dataset.light_field, viewSelectionFromString(options.views));
   if (options.baseline_m || options.focal_length_px)

@@ -6,6 +6,7 @@
 #include <rosbag/bag.h>
 
 #include "dataset_input.h"
+#include "light_field_depth/core/error.h"
 #include "tool_main.h"
 
 namespace light_field_depth
@@ -19,6 +20,20 @@ struct BagOptions
   bool compress = false;
 };
 
+/// @throw InputError
+void openForWriting(rosbag::Bag& bag, const std::string& file)
+{
+  try
+  {
+    bag.open(file, rosbag::bagmode::Write);
+  }
+  catch (const rosbag::BagException& error)
+  {
+    throw InputError("The bag " + file + " cannot be written (" + error.what() +
+                     "); check that its folder exists and may be written to.");
+  }
+}
+
 void writeBag(const DatasetInputOptions& input, const BagOptions& options)
 {
   const CalibratedDataset dataset = readCalibratedDataset(input);
@@ -31,7 +46,8 @@ void writeBag(const DatasetInputOptions& input, const BagOptions& options)
   const std::vector<ViewMessages> views =
       viewMessages(dataset.light_field, *dataset.light_field.calibration, header, input.topics);
 
-  rosbag::Bag bag(options.file, rosbag::bagmode::Write);
+  rosbag::Bag bag;
+  openForWriting(bag, options.file);
   bag.setCompression(options.compress ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed);
   const ros::WallTime now = ros::WallTime::now();
   const ros::Time start(now.sec, now.nsec);
