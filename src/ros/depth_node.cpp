@@ -113,11 +113,12 @@ DepthNode::~DepthNode()
     const std::lock_guard<std::mutex> lock(subscription_mutex_);
     shutting_down_ = true;
   }
+  // The worker gives up its frame while the topics are being left, which takes a call to the master for each.
+  pipeline_.cancel();
+  queue_.stop();
   watch_timer_.stop();
   reset_service_.shutdown();
   input_.unsubscribe();
-  pipeline_.cancel();
-  queue_.stop();
   worker_.join();
   results_->shutdown();
 }
