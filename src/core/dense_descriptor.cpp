@@ -21,6 +21,8 @@ constexpr int PATCH_SIDE_PX = DescriptorImage::CELLS_PER_SIDE * DescriptorImage:
 /// Added to the norm of a patch, in grey levels of gradient: below it a patch counts as flat, so that its
 /// noise is not blown up.
 constexpr float NORM_FLOOR = 4.0F;
+/// Squared gradients, in grey levels, that count as none: the share of the centre in a flat patch is 1.
+constexpr double CENTRE_ENERGY_FLOOR = 10.0;
 /// Turns normalised histograms into bytes. A patch of one orientation has 0.25 in all of its 16 cells.
 constexpr float BYTE_SCALE = 510.0F;
 
@@ -116,11 +118,8 @@ void smoothAlongRow(const std::vector<float>& in, float* out, float* energy)
   }
 }
 
-cv::Mat normalizedBytes(const cv::Mat& cells, const cv::Mat& energy)
+cv::Mat normalizedBytes(const cv::Mat& cells, const cv::Mat& mean_energy)
 {
-  cv::Mat mean_energy;
-  cv::boxFilter(energy, mean_energy, CV_32F, {PATCH_SIDE_PX + 1, PATCH_SIDE_PX + 1}, {-1, -1}, true,
-                cv::BORDER_REPLICATE);
   constexpr float CELL_COUNT = DescriptorImage::CELLS_PER_SIDE * DescriptorImage::CELLS_PER_SIDE;
   cv::Mat bytes(cells.size(), CV_8UC(BINS));
   for (int y = 0; y < cells.rows; ++y)
@@ -140,6 +139,14 @@ cv::Mat normalizedBytes(const cv::Mat& cells, const cv::Mat& energy)
   return bytes;
 }
 
+/// The ratio is squared, which measured better than the plain one.
+cv::Mat centreShareOf(const cv::Mat& energy, const cv::Mat& mean_energy)
+{
+  cv::Mat share = (energy + CENTRE_ENERGY_FLOOR) / (mean_energy + CENTRE_ENERGY_FLOOR);
+  cv::min(share, 1.0, share);
+  return share.mul(share);
+}
+
 }  // namespace
 
 DescriptorImage::DescriptorImage(const cv::Mat& image) : size_(image.size())
@@ -153,7 +160,11 @@ DescriptorImage::DescriptorImage(const cv::Mat& image) : size_(image.size())
     smoothAcrossRows(bins, y, smoothed);
     smoothAlongRow(smoothed, cells.ptr<float>(y), energy.ptr<float>(y));
   }
-  const cv::Mat bytes = normalizedBytes(cells, energy);
+  cv::Mat mean_energy;
+  cv::boxFilter(energy, mean_energy, CV_32F, {PATCH_SIDE_PX + 1, PATCH_SIDE_PX + 1}, {-1, -1}, true,
+                cv::BORDER_REPLICATE);
+  centre_share_ = centreShareOf(energy, mean_energy);
+  const cv::Mat bytes = normalizedBytes(cells, mean_energy);
   cv::copyMakeBorder(bytes, histograms_, FIRST_CELL_PX, FIRST_CELL_PX, FIRST_CELL_PX, FIRST_CELL_PX,
                      cv::BORDER_REPLICATE);
 }

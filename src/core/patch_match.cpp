@@ -271,6 +271,7 @@ SeedMatches LevelSearch::matches(bool subpixel) const
   result.rows_px = rows_.positions_px;
   result.disparity.create(rowCount(), columnCount(), CV_32FC1);
   result.cost.create(rowCount(), columnCount(), CV_32FC1);
+  result.centre_share.create(rowCount(), columnCount(), CV_32FC1);
   for (int row = 0; row < rowCount(); ++row)
   {
     for (int column = 0; column < columnCount(); ++column)
@@ -280,6 +281,8 @@ SeedMatches LevelSearch::matches(bool subpixel) const
       result.disparity.at<float>(row, column) =
           line_.disparity(static_cast<float>(displacement_[seed]) + offset);
       result.cost.at<float>(row, column) = static_cast<float>(cost_[seed]);
+      result.centre_share.at<float>(row, column) = from_->centreShare().at<float>(
+          rows_.positions_px[static_cast<std::size_t>(row)], columns_.positions_px[static_cast<std::size_t>(column)]);
     }
   }
   return result;
@@ -366,8 +369,9 @@ SparseDisparity consistentMatches(const SeedMatches& there, const SeedMatches& b
       if (disagreement_px <= options.consistency_threshold_px)
       {
         const double deviations = disagreement_px / options.confidence_sigma_px;
+        const float share = options.weigh_by_centre ? there.centre_share.at<float>(row, column) : 1.0F;
         drawBlock(sparse, seed, options.grid_spacing_px, disparity,
-                  static_cast<float>(std::exp(-0.5 * deviations * deviations)));
+                  share * static_cast<float>(std::exp(-0.5 * deviations * deviations)));
       }
     }
   }

@@ -110,6 +110,7 @@ SeedMatches matchByDis(const View& from, const View& to, const std::optional<Dis
   std::iota(matches.columns_px.begin(), matches.columns_px.end(), 0);
   std::iota(matches.rows_px.begin(), matches.rows_px.end(), 0);
   matches.cost = cv::Mat::zeros(size, CV_32FC1);
+  matches.centre_share = cv::Mat::ones(size, CV_32FC1);
   matches.disparity.create(size, CV_32FC1);
   for (int y = 0; y < size.height; ++y)
   {

@@ -37,6 +37,10 @@ struct PatchMatchOptions
   /// Standard deviation, in pixels, of the disagreement of forward and backward matches that weighs a match
   /// by exp(-e^2 / (2 s^2)). Lower it to trust only matches that agree.
   double confidence_sigma_px = 0.4;
+  /// Multiplies the weight of a match by DescriptorImage::centreShare(). Descriptors reach 4 px; next to an object
+  /// the background matches the object's edge, and this is what keeps its disparity from spreading. The paper
+  /// does not have it.
+  bool weigh_by_centre = true;
   /// Matches that end closer than this to the border of the image are dropped, in pixels.
   int border_px = 2;
 };
@@ -51,6 +55,7 @@ struct SeedMatches
   std::vector<int> rows_px;     ///< y of the seed rows
   cv::Mat disparity;            ///< CV_32FC1, pixels per grid step
   cv::Mat cost;                 ///< CV_32FC1, descriptor distance, 0 .. DescriptorImage::MAX_DISTANCE
+  cv::Mat centre_share;         ///< CV_32FC1, 0..1, of the seed's own descriptor; see DescriptorImage
 };
 
 /// Finds for each seed of one view its match in another. Only displacements on the epipolar line are tried.

@@ -36,8 +36,9 @@ struct VariationalOptions
   double gradient_weight = 0.71;
   /// Smoothness falls by exp(-kappa |grad I|) at edges of the image, I in 0..1.
   double edge_kappa = 5.0;
-  /// Standard deviation of the Gaussian that smooths the views first, in pixels.
-  double presmoothing_px = 1.0;
+  /// Standard deviation of the Gaussian that smooths the views first, in pixels. EpicFlow has 1; less keeps
+  /// disparity edges closer to the edges of the image. Raise it for noisy views.
+  double presmoothing_px = 0.7;
   /// How often the views are warped again.
   int warps = 5;
   /// Sweeps of successive over-relaxation for each warp.
