@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <set>
+#include <sstream>
 
 #include "light_field_depth/core/error.h"
 
@@ -39,14 +41,31 @@ AngularVolume columnVolume(const LightField& light_field, int column)
                   [column](const GridPosition& grid) { return grid.column == column; });
 }
 
+/// The numbers in a text, or nothing when there is something else in it.
+std::optional<std::vector<int>> lineNumbers(std::string text)
+{
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream stream(text);
+  std::vector<int> numbers;
+  for (int number = 0; stream >> number;)
+  {
+    numbers.push_back(number);
+  }
+  if (!stream.eof())
+  {
+    return std::nullopt;
+  }
+  return numbers;
+}
+
 std::vector<AngularVolume> namedVolumes(const LightField& light_field, const AngularVolumeOptions& options)
 {
   std::vector<AngularVolume> volumes;
-  for (const int row : options.rows)
+  for (const int row : lineNumbers(options.rows).value_or(std::vector<int>()))
   {
     volumes.push_back(rowVolume(light_field, row));
   }
-  for (const int column : options.columns)
+  for (const int column : lineNumbers(options.columns).value_or(std::vector<int>()))
   {
     volumes.push_back(columnVolume(light_field, column));
   }
@@ -156,6 +175,21 @@ std::vector<AngularVolume> extractVolumes(const LightField& light_field, ViewSel
     dropShortVolumes(light_field, volumes);
   }
   return volumes;
+}
+
+std::vector<std::string> validate(const AngularVolumeOptions& options)
+{
+  std::vector<std::string> problems;
+  const auto check = [&](const std::string& name, const std::string& text)
+  {
+    if (!lineNumbers(text))
+    {
+      problems.push_back(name + " is '" + text + "'; give whole numbers separated by commas, or nothing.");
+    }
+  };
+  check("volume_rows", options.rows);
+  check("volume_columns", options.columns);
+  return problems;
 }
 
 ViewPair pairOf(const View& from, const View& to)

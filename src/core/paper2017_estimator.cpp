@@ -261,8 +261,9 @@ MatchDirections matchDirectionsFromString(const std::string& name)
 
 std::vector<std::string> validate(const Paper2017Options& options)
 {
-  std::vector<std::string> problems = validate(options.patch_match);
-  for (auto more : {validate(options.feature_flow), validate(options.variational)})
+  std::vector<std::string> problems = validate(options.volumes);
+  for (auto more :
+       {validate(options.patch_match), validate(options.feature_flow), validate(options.variational)})
   {
     std::move(more.begin(), more.end(), std::back_inserter(problems));
   }

@@ -281,8 +281,9 @@ SeedMatches LevelSearch::matches(bool subpixel) const
       result.disparity.at<float>(row, column) =
           line_.disparity(static_cast<float>(displacement_[seed]) + offset);
       result.cost.at<float>(row, column) = static_cast<float>(cost_[seed]);
-      result.centre_share.at<float>(row, column) = from_->centreShare().at<float>(
-          rows_.positions_px[static_cast<std::size_t>(row)], columns_.positions_px[static_cast<std::size_t>(column)]);
+      result.centre_share.at<float>(row, column) =
+          from_->centreShare().at<float>(rows_.positions_px[static_cast<std::size_t>(row)],
+                                         columns_.positions_px[static_cast<std::size_t>(column)]);
     }
   }
   return result;

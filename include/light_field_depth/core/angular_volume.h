@@ -22,16 +22,21 @@ struct AngularVolume
 /// Which volumes to extract.
 struct AngularVolumeOptions
 {
-  /// Grid rows to use. Empty: what the view selection says. Name several to have more estimates to fuse.
-  std::vector<int> rows;
-  /// Grid columns to use. Empty: what the view selection says.
-  std::vector<int> columns;
+  /// Numbers of the grid rows to use, separated by commas or spaces. Empty: what the view selection says.
+  /// Name several to have more estimates to fuse.
+  std::string rows;
+  /// The same for grid columns.
+  std::string columns;
 };
+
+/// One whole sentence for each field that cannot be used.
+std::vector<std::string> validate(const AngularVolumeOptions& options);
 
 /// Auto and Cross give the row and the column of the reference view, Row and Column one of them, Star also
 /// both diagonals, All every row and every column. A line with fewer than two views is left out. When named
 /// rows or columns are given, exactly those are used. When no line has two views, each view makes a volume
 /// with the reference view.
+/// @pre validate(options) is empty
 /// @throw InputError for a named row or column in which fewer than two views stand
 std::vector<AngularVolume> extractVolumes(const LightField& light_field, ViewSelection selection,
                                           const AngularVolumeOptions& options = {});

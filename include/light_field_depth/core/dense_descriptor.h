@@ -29,8 +29,8 @@ public:
 
   /// First cell of the descriptor at a pixel of the image, for descriptorDistance().
   const std::uint8_t* at(int x, int y) const { return histograms_.ptr<std::uint8_t>(y) + x * ORIENTATIONS; }
-  /// CV_32FC1, 0..1: how much of the gradients in the descriptor's patch is at its centre, in relation to an even
-  /// spread. Where it is small, as beside the edge of an object, the patch matches what is at its rim.
+  /// CV_32FC1, 0..1: how much of the gradients in the descriptor's patch is at its centre, in relation to an
+  /// even spread. Where it is small, as beside the edge of an object, the patch matches what is at its rim.
   const cv::Mat& centreShare() const { return centre_share_; }
   /// Bytes from one row to the next.
   std::size_t stride() const { return histograms_.step; }

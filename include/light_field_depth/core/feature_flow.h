@@ -13,15 +13,16 @@
 
 namespace light_field_depth
 {
-/// Feature flow (paper, 3.2.2; Lang et al., 2012). The scales are those of the paper where nothing else is said.
+/// Feature flow (paper, 3.2.2; Lang et al., 2012). The scales are those of the paper where nothing else is
+/// said.
 struct FeatureFlowOptions
 {
   /// false: the paper's ablation. Each pixel takes the nearest match of its view; nothing is filtered.
   bool enabled = true;
   /// sigma_s of the spatial filter in pixels. Lower it to let a match reach less far.
   double sigma_spatial_px = 2000.0;
-  /// sigma_r of the spatial filter, of the sum of three colour channels in 0..1. The paper has 0.4, which lets
-  /// disparity bleed across every edge of less than about 30 grey levels. Raise it for noisy views.
+  /// sigma_r of the spatial filter, of the sum of three colour channels in 0..1. The paper has 0.4, which
+  /// lets disparity bleed across every edge of less than about 30 grey levels. Raise it for noisy views.
   double sigma_range = 0.1;
   /// Whether the filter runs along the angular axis as well.
   bool angular = true;

@@ -37,9 +37,9 @@ struct PatchMatchOptions
   /// Standard deviation, in pixels, of the disagreement of forward and backward matches that weighs a match
   /// by exp(-e^2 / (2 s^2)). Lower it to trust only matches that agree.
   double confidence_sigma_px = 0.4;
-  /// Multiplies the weight of a match by DescriptorImage::centreShare(). Descriptors reach 4 px; next to an object
-  /// the background matches the object's edge, and this is what keeps its disparity from spreading. The paper
-  /// does not have it.
+  /// Multiplies the weight of a match by DescriptorImage::centreShare(). Descriptors reach 4 px; next to an
+  /// object the background matches the object's edge, and this is what keeps its disparity from spreading.
+  /// The paper does not have it.
   bool weigh_by_centre = true;
   /// Matches that end closer than this to the border of the image are dropped, in pixels.
   int border_px = 2;
