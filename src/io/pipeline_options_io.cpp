@@ -41,17 +41,6 @@ std::string shortestText(Number number)
   return text;
 }
 
-/// "3,4,5"
-std::string listText(const std::vector<int>& numbers)
-{
-  std::string text;
-  for (const int number : numbers)
-  {
-    text.append(text.empty() ? "" : ",").append(std::to_string(number));
-  }
-  return text;
-}
-
 template <class Field>
 OptionValue toOptionValue(const Field& field)
 {
@@ -59,10 +48,6 @@ OptionValue toOptionValue(const Field& field)
                 std::is_same_v<Field, std::string>)
   {
     return field;
-  }
-  else if constexpr (std::is_same_v<Field, std::vector<int>>)
-  {
-    return listText(field);
   }
   else if constexpr (std::is_same_v<Field, float>)
   {
@@ -77,22 +62,6 @@ OptionValue toOptionValue(const Field& field)
 [[noreturn]] void failValue(const std::string& name, const std::string& text, const std::string& wanted)
 {
   throw InputError("The setting " + name + " cannot be '" + text + "'; it must be " + wanted + ".");
-}
-
-std::vector<int> parseList(const std::string& name, const std::string& text)
-{
-  std::vector<int> numbers;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');)
-  {
-    const auto number = numberFromText<int>(part);
-    if (!number)
-    {
-      failValue(name, text, "whole numbers with commas between them");
-    }
-    numbers.push_back(*number);
-  }
-  return numbers;
 }
 
 bool parseBool(const std::string& name, const std::string& text)
@@ -118,10 +87,6 @@ void parseInto(const std::string& name, const std::string& text, Field& field)
   else if constexpr (std::is_same_v<Field, std::string>)
   {
     field = text;
-  }
-  else if constexpr (std::is_same_v<Field, std::vector<int>>)
-  {
-    field = parseList(name, text);
   }
   else if constexpr (std::is_arithmetic_v<Field>)
   {
