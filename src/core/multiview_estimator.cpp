@@ -9,6 +9,7 @@
 
 #include "light_field_depth/core/disparity_range.h"
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/multiview/noise.h"
 #include "light_field_depth/core/multiview/solver.h"
 #include "light_field_depth/core/multiview/view_maps.h"
 
@@ -169,6 +170,10 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   SolverSettings settings = solverSettings(options_);
   settings.range = {static_cast<float>(estimate.range.min * unit),
                     static_cast<float>(estimate.range.max * unit)};
+  {
+    const StageTimer timer(context, "noise");
+    adaptToNoise(multiview::measureNoise(chosen.reference().image), settings);
+  }
   buffers_->solver.run(scaledSteps(chosen, unit), settings, context);
   buffers_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
   estimate.confidence = buffers_->solver.confidence().clone();

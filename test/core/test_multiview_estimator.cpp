@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/multiview/noise.h"
 #include "light_field_depth/core/multiview_estimator.h"
 #include "support/synthetic_scene.h"
 
@@ -150,6 +151,21 @@ TEST(MultiviewEstimator, BringsTheMapToEveryView)
     const cv::Mat truth = testing::renderTruth(scene, settings.size, view.steps);
     EXPECT_TRUE(cv::checkRange(map.disparity)) << toString(view.grid);
     EXPECT_LT(testing::badPercentage(map.disparity, truth, 0.1), 8.0) << toString(view.grid);
+  }
+}
+
+TEST(MultiviewEstimator, MeasuresNoiseAndWithstandsIt)
+{
+  auto settings = crossSettings();
+  for (const double sigma : {0.0, 3.0, 8.0})
+  {
+    settings.noise_sigma = sigma;
+    const auto input = standardLightField(settings);
+    const float measured = multiview::measureNoise(input.light_field.reference().image);
+    EXPECT_NEAR(measured, sigma, 0.2 * sigma + 1.0);
+    const auto result = estimate(input.light_field, STANDARD_RANGE);
+    EXPECT_LT(testing::meanAbsoluteError(result.disparity, input.truth), 0.03 + 0.012 * sigma)
+        << "sigma " << sigma;
   }
 }
 

@@ -39,7 +39,7 @@ struct MultiviewOptions
   int small_change_penalty = 30;
   /// P2: cost of any larger change where the image has no edge. Raise it for large smooth objects, lower it
   /// for fine structures.
-  int large_change_penalty = 1200;
+  int large_change_penalty = 1000;
   /// Times that the views' occlusions are found from the map and the search repeated. More than one costs
   /// time and rarely helps.
   int visibility_passes = 1;

@@ -97,6 +97,16 @@ public:
         stride_(roundUp(width_, MOMENT_MULTIPLE)), arm_stride_(MOMENTS * stride_),
         arm_ring_(2 * RESIDUAL_RADIUS + 1), pair_ring_(2 * settings.window_radius + 1)
   {
+    for (int pair = 0; pair < DIRECTION_PAIRS; ++pair)
+    {
+      const bool present =
+          std::any_of(views.arms.begin(), views.arms.end(),
+                      [pair](const Arm& arm) { return arm.direction % DIRECTION_PAIRS == pair; });
+      if (present)
+      {
+        pairs_.push_back(pair);
+      }
+    }
     scratch_.arm_rows.resize(static_cast<std::size_t>(arm_ring_) * arms_ * arm_stride_);
     scratch_.pair_rows.resize(static_cast<std::size_t>(pair_ring_) * DIRECTION_PAIRS * arm_stride_);
     scratch_.disparity.assign(stride_, 0.0F);
@@ -221,7 +231,7 @@ private:
         residual[x] = smallest[x] - RESIDUAL_FLOOR;
       }
     }
-    for (int pair = 0; pair < DIRECTION_PAIRS; ++pair)
+    for (const int pair : pairs_)
     {
       std::fill(pairRow(y, pair), pairRow(y, pair) + arm_stride_, 0.0F);
     }
@@ -256,7 +266,7 @@ private:
     std::fill(target, target + pixels, 0.0F);
     auto* const disagreement = result_.disagreement.ptr<float>(y);
     std::fill(disagreement, disagreement + pixels, 0.0F);
-    for (int pair = 0; pair < DIRECTION_PAIRS; ++pair)
+    for (const int pair : pairs_)
     {
       sumRows(
           y, settings_.window_radius, arm_stride_, [&](int row) { return pairRow(row, pair); },
@@ -311,6 +321,7 @@ private:
   std::size_t arms_;
   std::size_t stride_;  ///< of one row of numbers
   std::size_t arm_stride_;
+  std::vector<int> pairs_;  ///< the directions, modulo their opposites, in which there are views
   int first_ = 0;
   int last_ = 0;
   int arm_ring_;

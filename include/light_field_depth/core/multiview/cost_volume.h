@@ -37,8 +37,10 @@ struct CostVolume
 /// Where the costs come from.
 struct CostSettings
 {
-  int truncation = 30;      ///< of one view's difference, summed over the channels
-  int unseen_penalty = 20;  ///< cost of a view that is missing to min_seeing_views
+  int truncation = 30;  ///< of one view's difference, summed over the channels
+  /// Cost of a view that is missing to min_seeing_views. With less than the truncation, what no view can see
+  /// would beat what several views see badly.
+  int unseen_penalty = 30;
   int min_seeing_views = 3;
   int hidden_margin = 2;  ///< labels by which a surface must be nearer to hide a point
 };
