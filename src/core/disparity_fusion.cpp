@@ -13,7 +13,7 @@ namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
 /// Mean deviation from the median, in pixels per grid step, at which the confidence has fallen to 1/e.
-constexpr float SPREAD_SCALE_PX = 0.1F;
+constexpr float SPREAD_SCALE_PX = 0.15F;
 
 struct Sample
 {
@@ -71,15 +71,12 @@ cv::Mat notFinite(const cv::Mat& values)
   return mask;
 }
 
-}  // namespace
-
-DenseDisparity warpToReference(const DenseDisparity& map, const View& view)
+/// Moves each pixel by disparity * steps + offset; where several land on one, the nearest surface stays.
+DenseDisparity warpBy(const DenseDisparity& map, const cv::Point2f& steps, const cv::Point2f& offset)
 {
   const cv::Size size = map.disparity.size();
   DenseDisparity warped{cv::Mat(size, CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN())),
                         cv::Mat::zeros(size, CV_32FC1)};
-  const cv::Point2f steps(view.steps);
-  const cv::Point2f offset(view.offset_px);
   for (int y = 0; y < size.height; ++y)
   {
     const auto* const disparities = map.disparity.ptr<float>(y);
@@ -87,8 +84,8 @@ DenseDisparity warpToReference(const DenseDisparity& map, const View& view)
     for (int x = 0; x < size.width; ++x)
     {
       const float disparity = disparities[x];
-      const int column = cvRound(static_cast<float>(x) + disparity * steps.x - offset.x);
-      const int row = cvRound(static_cast<float>(y) + disparity * steps.y - offset.y);
+      const int column = cvRound(static_cast<float>(x) + disparity * steps.x + offset.x);
+      const int row = cvRound(static_cast<float>(y) + disparity * steps.y + offset.y);
       if (confidences[x] <= 0.0F || column < 0 || row < 0 || column >= size.width || row >= size.height)
       {
         continue;
@@ -102,6 +99,18 @@ DenseDisparity warpToReference(const DenseDisparity& map, const View& view)
     }
   }
   return warped;
+}
+
+}  // namespace
+
+DenseDisparity warpToReference(const DenseDisparity& map, const View& view)
+{
+  return warpBy(map, cv::Point2f(view.steps), cv::Point2f(-view.offset_px));
+}
+
+DenseDisparity warpFromReference(const DenseDisparity& map, const View& view)
+{
+  return warpBy(map, cv::Point2f(-view.steps), cv::Point2f(view.offset_px));
 }
 
 FusedDisparity fuseByMedian(const std::vector<DenseDisparity>& maps, ThreadPool& pool)

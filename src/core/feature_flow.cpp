@@ -17,6 +17,8 @@ namespace
 constexpr int ROWS_PER_CHUNK = 32;
 /// Weight below which a value is known by no match.
 constexpr float UNKNOWN_WEIGHT = 1e-6F;
+/// G*(n) at which the confidence is one half. Most matches weigh little, and a few of them in reach suffice.
+constexpr double HALF_CONFIDENCE_WEIGHT = 0.05;
 /// Given to every pixel without a match, with the view's mean disparity: keeps the recursions away from
 /// denormal numbers, which are slow, and is too small to be known.
 constexpr float FLOOR_WEIGHT = 1e-9F;
@@ -35,7 +37,7 @@ DenseDisparity normalized(const WeightedValues& values)
 {
   DenseDisparity dense;
   dense.disparity = values.weighted / values.weight;
-  dense.confidence = cv::min(values.weight, 1.0);
+  dense.confidence = values.weight / (values.weight + HALF_CONFIDENCE_WEIGHT);
   dense.confidence.setTo(0.0, values.weight < UNKNOWN_WEIGHT);
   return dense;
 }

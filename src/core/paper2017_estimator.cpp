@@ -74,12 +74,19 @@ std::vector<SparseDisparity> estimatesOf(const VolumeMatches& matches, MatchDire
   return estimates;
 }
 
+/// The range of all but a few values, so that single outliers do not count.
 DisparityRange rangeOf(const cv::Mat& disparity)
 {
-  double minimum = 0.0;
-  double maximum = 0.0;
-  cv::minMaxIdx(disparity, &minimum, &maximum);
-  return {static_cast<float>(minimum), static_cast<float>(maximum)};
+  constexpr double OUTLIERS_PER_SIDE = 0.001;
+  constexpr float NARROWEST_PX = 0.01F;
+  std::vector<float> values(disparity.begin<float>(), disparity.end<float>());
+  const auto rank = static_cast<std::ptrdiff_t>(OUTLIERS_PER_SIDE * static_cast<double>(values.size()));
+  const auto low = values.begin() + rank;
+  const auto high = values.end() - 1 - rank;
+  std::nth_element(values.begin(), low, values.end());
+  const float minimum = *low;
+  std::nth_element(values.begin(), high, values.end());
+  return {minimum, std::max(*high, minimum + NARROWEST_PX)};
 }
 
 void save(const RunContext& context, const std::string& name, const cv::Mat& values)
@@ -103,6 +110,26 @@ std::string mapName(const std::string& stage, const AngularVolume& volume, std::
   return stage + "_" + volume.name + "_view_" + std::to_string(place);
 }
 
+/// A view's own map, taking the refined disparity where that agrees. What the reference view does not see
+/// keeps the view's own estimate.
+cv::Mat withRefined(const cv::Mat& own, const cv::Mat& refined)
+{
+  constexpr float AGREEMENT_PX = 0.25F;
+  cv::Mat result = own.clone();
+  for (int y = 0; y < own.rows; ++y)
+  {
+    for (int x = 0; x < own.cols; ++x)
+    {
+      const float value = refined.at<float>(y, x);
+      if (std::abs(value - own.at<float>(y, x)) < AGREEMENT_PX)
+      {
+        result.at<float>(y, x) = value;
+      }
+    }
+  }
+  return result;
+}
+
 /// One run of the method.
 class Run
 {
@@ -121,7 +148,7 @@ private:
   FusedDisparity fuse();
   cv::Mat refine(const cv::Mat& disparity);
   std::vector<std::size_t> usedViews() const;
-  std::vector<ViewDisparity> viewDisparities() const;
+  std::vector<ViewDisparity> viewDisparities(const DenseDisparity& reference) const;
 
   LightField light_field_;
   const EstimateRequest& request_;
@@ -199,10 +226,12 @@ cv::Mat Run::refine(const cv::Mat& disparity)
                          disparity, options_.variational, context_.pool);
 }
 
-std::vector<ViewDisparity> Run::viewDisparities() const
+std::vector<ViewDisparity> Run::viewDisparities(const DenseDisparity& reference) const
 {
-  std::vector<ViewDisparity> maps;
+  std::vector<ViewDisparity> maps = {
+      {light_field_.reference_index, reference.disparity, reference.confidence}};
   std::vector<bool> done(light_field_.views.size(), false);
+  done[light_field_.reference_index] = true;
   for (std::size_t v = 0; v < volumes_.size(); ++v)
   {
     for (std::size_t i = 0; i < dense_[v].size(); ++i)
@@ -210,7 +239,10 @@ std::vector<ViewDisparity> Run::viewDisparities() const
       const std::size_t index = volumes_[v].view_indices[i];
       if (!done[index])
       {
-        maps.push_back({index, dense_[v][i].disparity, dense_[v][i].confidence});
+        const View& view = light_field_.views[index];
+        maps.push_back({index,
+                        withRefined(dense_[v][i].disparity, warpFromReference(reference, view).disparity),
+                        dense_[v][i].confidence});
         done[index] = true;
       }
     }
@@ -232,7 +264,8 @@ DisparityEstimate Run::estimate()
   estimate.views_used = usedViews().size();
   if (request_.view_disparities)
   {
-    estimate.view_disparities = viewDisparities();
+    const StageTimer timer(context_, "view_disparities");
+    estimate.view_disparities = viewDisparities({estimate.disparity, estimate.confidence});
   }
   return estimate;
 }

@@ -86,13 +86,18 @@ private:
     return static_cast<std::size_t>(row) * columns_.positions_px.size() + static_cast<std::size_t>(column);
   }
 
+  cv::Point pixelOf(int column, int row) const
+  {
+    return {columns_.positions_px[static_cast<std::size_t>(column)],
+            rows_.positions_px[static_cast<std::size_t>(row)]};
+  }
+
   int costAt(int column, int row, int displacement) const;
   void start(int column, int row, int displacement);
   bool tryDisplacement(int column, int row, std::size_t seed, int displacement);
   bool propagate(int column, int row, std::size_t seed, int towards);
   bool searchAround(int column, int row, std::size_t seed, int radius, std::uint32_t sweep);
   int sweepOnce(int sweep, int radius);
-  float subpixelOffset(int column, int row) const;
 
   const DescriptorImage* from_;
   const DescriptorImage* to_;
@@ -108,8 +113,7 @@ constexpr int OUTSIDE = DescriptorImage::MAX_DISTANCE + 1;
 
 int LevelSearch::costAt(int column, int row, int displacement) const
 {
-  const cv::Point pixel(columns_.positions_px[static_cast<std::size_t>(column)],
-                        rows_.positions_px[static_cast<std::size_t>(row)]);
+  const cv::Point pixel = pixelOf(column, row);
   const cv::Point target = line_.target(pixel, displacement);
   if (target.x < 0 || target.y < 0 || target.x >= to_->size().width || target.y >= to_->size().height)
   {
@@ -250,12 +254,8 @@ void LevelSearch::search(int sweeps, int radius)
 
 /// Where the two lines of equal slope through the three costs around the minimum meet; the sum of absolute
 /// differences has such a kink, and a parabola would be biased towards whole pixels.
-float LevelSearch::subpixelOffset(int column, int row) const
+float subpixelOffset(int before, int middle, int after)
 {
-  const std::size_t seed = seedIndex(column, row);
-  const int before = costAt(column, row, displacement_[seed] - 1);
-  const int after = costAt(column, row, displacement_[seed] + 1);
-  const int middle = cost_[seed];
   const int steeper = std::max(before, after) - middle;
   if (before >= OUTSIDE || after >= OUTSIDE || before < middle || after < middle || steeper <= 0)
   {
@@ -277,40 +277,19 @@ SeedMatches LevelSearch::matches(bool subpixel) const
     for (int column = 0; column < columnCount(); ++column)
     {
       const std::size_t seed = seedIndex(column, row);
-      const float offset = subpixel ? subpixelOffset(column, row) : 0.0F;
-      result.disparity.at<float>(row, column) =
-          line_.disparity(static_cast<float>(displacement_[seed]) + offset);
-      result.cost.at<float>(row, column) = static_cast<float>(cost_[seed]);
+      const int displacement = displacement_[seed];
+      const int middle = cost_[seed];
+      const int before = costAt(column, row, displacement - 1);
+      const int after = costAt(column, row, displacement + 1);
+      const float offset = subpixel ? subpixelOffset(before, middle, after) : 0.0F;
+      const bool undecided = before == middle && after == middle;
+      result.disparity.at<float>(row, column) = line_.disparity(static_cast<float>(displacement) + offset);
+      result.cost.at<float>(row, column) = static_cast<float>(middle);
       result.centre_share.at<float>(row, column) =
-          from_->centreShare().at<float>(rows_.positions_px[static_cast<std::size_t>(row)],
-                                         columns_.positions_px[static_cast<std::size_t>(column)]);
+          undecided ? 0.0F : from_->centreShare().at<float>(pixelOf(column, row));
     }
   }
   return result;
-}
-
-/// Index of the position nearest to a value in an increasing list.
-std::size_t nearestIndex(const std::vector<int>& positions, double value)
-{
-  const auto above = std::lower_bound(positions.begin(), positions.end(), value);
-  if (above == positions.begin())
-  {
-    return 0;
-  }
-  const auto index = static_cast<std::size_t>(above - positions.begin());
-  if (above == positions.end())
-  {
-    return index - 1;
-  }
-  return *above - value < value - positions[index - 1] ? index : index - 1;
-}
-
-void drawBlock(SparseDisparity& sparse, cv::Point seed, int spacing, float disparity, float confidence)
-{
-  const cv::Rect block = cv::Rect(seed.x - spacing / 2, seed.y - spacing / 2, spacing, spacing) &
-                         cv::Rect(cv::Point(), sparse.disparity.size());
-  sparse.disparity(block).setTo(disparity);
-  sparse.confidence(block).setTo(confidence);
 }
 
 }  // namespace
@@ -342,78 +321,6 @@ SeedMatches matchPair(const std::vector<DescriptorImage>& from, const std::vecto
     search = std::move(finer);
   }
   return search.matches(options.subpixel);
-}
-
-SparseDisparity consistentMatches(const SeedMatches& there, const SeedMatches& back, const ViewPair& pair,
-                                  const cv::Size& size, const PatchMatchOptions& options)
-{
-  SparseDisparity sparse{cv::Mat::zeros(size, CV_32FC1), cv::Mat::zeros(size, CV_32FC1)};
-  const double pair_steps = cv::norm(pair.steps);
-  const cv::Rect2d inner(options.border_px, options.border_px, size.width - 2.0 * options.border_px,
-                         size.height - 2.0 * options.border_px);
-  for (int row = 0; row < there.disparity.rows; ++row)
-  {
-    for (int column = 0; column < there.disparity.cols; ++column)
-    {
-      const cv::Point seed(there.columns_px[static_cast<std::size_t>(column)],
-                           there.rows_px[static_cast<std::size_t>(row)]);
-      const float disparity = there.disparity.at<float>(row, column);
-      const cv::Point2d target = cv::Point2d(seed) - disparity * pair.steps + pair.offset_px;
-      if (!inner.contains(target))
-      {
-        continue;
-      }
-      const float returned =
-          back.disparity.at<float>(static_cast<int>(nearestIndex(back.rows_px, target.y)),
-                                   static_cast<int>(nearestIndex(back.columns_px, target.x)));
-      const double disagreement_px = std::abs(disparity - returned) * pair_steps;
-      if (disagreement_px <= options.consistency_threshold_px)
-      {
-        const double deviations = disagreement_px / options.confidence_sigma_px;
-        const float share = options.weigh_by_centre ? there.centre_share.at<float>(row, column) : 1.0F;
-        drawBlock(sparse, seed, options.grid_spacing_px, disparity,
-                  share * static_cast<float>(std::exp(-0.5 * deviations * deviations)));
-      }
-    }
-  }
-  return sparse;
-}
-
-std::vector<std::string> validate(const PatchMatchOptions& options)
-{
-  std::vector<std::string> problems;
-  const auto require = [&](bool usable, const std::string& sentence)
-  {
-    if (!usable)
-    {
-      problems.push_back(sentence);
-    }
-  };
-  require(options.levels >= 1 && options.levels <= 12,
-          "cpm_levels is " + std::to_string(options.levels) + "; it must be between 1 and 12.");
-  require(
-      options.pyramid_ratio >= 0.3 && options.pyramid_ratio <= 0.9,
-      "cpm_pyramid_ratio is " + std::to_string(options.pyramid_ratio) + "; it must be between 0.3 and 0.9.");
-  require(options.grid_spacing_px >= 1 && options.grid_spacing_px <= 16,
-          "cpm_grid_spacing_px is " + std::to_string(options.grid_spacing_px) +
-              "; it must be between 1 and 16 pixels.");
-  require(options.iterations >= 1 && options.iterations <= 100,
-          "cpm_iterations is " + std::to_string(options.iterations) + "; it must be between 1 and 100.");
-  require(options.search_radius_px >= 1 && options.search_radius_px <= 64,
-          "cpm_search_radius_px is " + std::to_string(options.search_radius_px) +
-              "; it must be between 1 and 64 pixels.");
-  require(options.max_displacement_px >= 1.0 && options.max_displacement_px <= 1000.0,
-          "cpm_max_displacement_px is " + std::to_string(options.max_displacement_px) +
-              "; it must be between 1 and 1000 pixels.");
-  require(options.consistency_threshold_px > 0.0 && options.consistency_threshold_px <= 100.0,
-          "cpm_consistency_threshold_px is " + std::to_string(options.consistency_threshold_px) +
-              "; it must be above 0 and at most 100 pixels.");
-  require(options.confidence_sigma_px >= 0.01 && options.confidence_sigma_px <= 100.0,
-          "cpm_confidence_sigma_px is " + std::to_string(options.confidence_sigma_px) +
-              "; it must be between 0.01 and 100 pixels.");
-  require(options.border_px >= 0 && options.border_px <= 64,
-          "cpm_border_px is " + std::to_string(options.border_px) + "; it must be between 0 and 64 pixels.");
-  return problems;
 }
 
 }  // namespace light_field_depth

@@ -17,6 +17,9 @@ namespace light_field_depth
 /// Thread safe.
 DenseDisparity warpToReference(const DenseDisparity& map, const View& view);
 
+/// The opposite: what the reference view's map says about another view.
+DenseDisparity warpFromReference(const DenseDisparity& map, const View& view);
+
 /// Several estimates of one map, made one (paper, 3.3.1).
 struct FusedDisparity
 {

@@ -40,8 +40,8 @@ std::vector<std::string> validate(const FeatureFlowOptions& options);
 /// A dense estimate in the pixel grid of one view.
 struct DenseDisparity
 {
-  cv::Mat disparity;   ///< CV_32FC1, pixels per grid step; finite; NaN everywhere if no match supports any
-  cv::Mat confidence;  ///< CV_32FC1, 0..1: G*(n), the support by matches
+  cv::Mat disparity;   ///< CV_32FC1, pixels per grid step; finite; 0 everywhere if there is no match at all
+  cv::Mat confidence;  ///< CV_32FC1, 0..1, growing with G*(n), the support by matches; 0 where there is none
 };
 
 /// Diffuses sparse matches over a volume: G*(n f) / G*(n), with the domain transform G on x, y and, along

@@ -29,6 +29,7 @@ void visitPaper2017Options(Options& options, Visitor& visit)
   visit("cpm_consistency_threshold_px", matching.consistency_threshold_px);
   visit("cpm_confidence_sigma_px", matching.confidence_sigma_px);
   visit("cpm_weigh_by_centre", matching.weigh_by_centre);
+  visit("cpm_min_region_seeds", matching.min_region_seeds);
   visit("cpm_border_px", matching.border_px);
   auto& filter = options.feature_flow;
   visit("feature_flow", filter.enabled);

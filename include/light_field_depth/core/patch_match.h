@@ -41,6 +41,9 @@ struct PatchMatchOptions
   /// object the background matches the object's edge, and this is what keeps its disparity from spreading.
   /// The paper does not have it.
   bool weigh_by_centre = true;
+  /// Matches of a connected region of fewer seeds than this, or than a twentieth of all, are dropped. Lower
+  /// it for scenes with small parts; raise it where flat areas show spots.
+  int min_region_seeds = 50;
   /// Matches that end closer than this to the border of the image are dropped, in pixels.
   int border_px = 2;
 };
@@ -55,7 +58,7 @@ struct SeedMatches
   std::vector<int> rows_px;     ///< y of the seed rows
   cv::Mat disparity;            ///< CV_32FC1, pixels per grid step
   cv::Mat cost;                 ///< CV_32FC1, descriptor distance, 0 .. DescriptorImage::MAX_DISTANCE
-  cv::Mat centre_share;         ///< CV_32FC1, 0..1, of the seed's own descriptor; see DescriptorImage
+  cv::Mat centre_share;         ///< CV_32FC1, 0..1, of the seed's descriptor; 0 where all costs are equal
 };
 
 /// Finds for each seed of one view its match in another. Only displacements on the epipolar line are tried.
