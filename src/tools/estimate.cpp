@@ -106,6 +106,11 @@ lfd::PipelineOptions makeOptions(const Arguments& arguments)
   {
     options.disparity_range = lfd::DisparityRange{arguments.disparity_range[0], arguments.disparity_range[1]};
   }
+  const std::vector<std::string> problems = lfd::validate(options);
+  if (!problems.empty())
+  {
+    throw lfd::InputError(problems.front());
+  }
   return options;
 }
 
