@@ -1,26 +1,70 @@
 #include "light_field_depth/ros/settings.h"
 
+#include <type_traits>
 #include <utility>
 
+#include <boost/any.hpp>
+
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/options_visitor.h"
 
 namespace light_field_depth
 {
+namespace
+{
+/// The value of a setting by its name; empty when config/LightFieldDepth.cfg does not have it.
+boost::any valueOf(const LightFieldDepthConfig& config, const std::string& name)
+{
+  boost::any value;
+  for (const auto& description : LightFieldDepthConfig::__getParamDescriptions__())
+  {
+    if (description->name == name)
+    {
+      description->getValue(config, value);
+    }
+  }
+  return value;
+}
+
+/// dynamic_reconfigure knows bool, int, double and text; the options also have float and enumerations.
+template <class Field>
+void assign(const boost::any& value, Field& field)
+{
+  if constexpr (std::is_floating_point_v<Field>)
+  {
+    field = static_cast<Field>(boost::any_cast<double>(value));
+  }
+  else if constexpr (std::is_enum_v<Field>)
+  {
+    fromString(boost::any_cast<std::string>(value), field);
+  }
+  else
+  {
+    field = boost::any_cast<Field>(value);
+  }
+}
+
+}  // namespace
+
 NodeSettings settingsFrom(const LightFieldDepthConfig& config)
 {
   NodeSettings settings;
   settings.dense_cloud = config.dense_cloud;
   PipelineOptions& pipeline = settings.pipeline;
-  pipeline.method = methodFromString(config.method);
-  pipeline.views = viewSelectionFromString(config.views);
+  visitOptions(pipeline,
+               [&config](const std::string& name, auto& field)
+               {
+                 const boost::any value = valueOf(config, name);
+                 if (!value.empty())
+                 {
+                   assign(value, field);
+                 }
+               });
   if (!config.disparity_range_auto)
   {
     pipeline.disparity_range =
         DisparityRange{static_cast<float>(config.disparity_min), static_cast<float>(config.disparity_max)};
   }
-  pipeline.min_confidence = static_cast<float>(config.min_confidence);
-  pipeline.dense_cloud.min_confidence = static_cast<float>(config.dense_cloud_min_confidence);
-  pipeline.dense_cloud.voxel_size_m = static_cast<float>(config.dense_cloud_voxel_size_m);
 
   std::string text;
   for (const std::string& problem : validate(pipeline))

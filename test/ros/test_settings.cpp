@@ -1,10 +1,13 @@
 #include "light_field_depth/ros/settings.h"
 
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
+#include <boost/any.hpp>
 
 #include "expect_sentence.h"
+#include "light_field_depth/io/pipeline_options_io.h"
 
 namespace light_field_depth
 {
@@ -15,6 +18,72 @@ using testing::expectSentence;
 LightFieldDepthConfig defaults()
 {
   return LightFieldDepthConfig::__getDefault__();
+}
+
+/// A value of the .cfg as text, to be compared with that of the options; empty when there is none.
+std::string textOf(const LightFieldDepthConfig& config, const std::string& name)
+{
+  for (const auto& description : LightFieldDepthConfig::__getParamDescriptions__())
+  {
+    if (description->name != name)
+    {
+      continue;
+    }
+    boost::any value;
+    description->getValue(config, value);
+    PipelineOptions options;
+    if (const auto* const number = boost::any_cast<double>(&value))
+    {
+      setOption(options, name, std::to_string(*number));
+    }
+    else if (const auto* const whole = boost::any_cast<int>(&value))
+    {
+      setOption(options, name, std::to_string(*whole));
+    }
+    else if (const auto* const flag = boost::any_cast<bool>(&value))
+    {
+      setOption(options, name, *flag ? "true" : "false");
+    }
+    else
+    {
+      setOption(options, name, boost::any_cast<std::string>(value));
+    }
+    for (const NamedOption& option : listOptions(options))
+    {
+      if (option.name == name)
+      {
+        return toString(option.value);
+      }
+    }
+  }
+  return "";
+}
+
+TEST(Settings, OfTheParameterServerHaveTheDefaultsOfTheOptions)
+{
+  for (const NamedOption& option : listOptions(PipelineOptions()))
+  {
+    EXPECT_EQ(textOf(defaults(), option.name), toString(option.value))
+        << "add '" << option.name << "' to config/LightFieldDepth.cfg, or correct its default there";
+  }
+  EXPECT_EQ(defaults().disparity_range_auto, !PipelineOptions().disparity_range.has_value());
+  EXPECT_EQ(defaults().dense_cloud, NodeSettings().dense_cloud);
+}
+
+TEST(Settings, ReachTheOptionsByTheirNames)
+{
+  LightFieldDepthConfig config = defaults();
+  config.method = "multiview";
+  config.views = "star";
+  config.min_confidence = 0.25;
+  config.dense_cloud_voxel_size_m = 0.5;
+  config.dense_cloud = false;
+  const NodeSettings settings = settingsFrom(config);
+  EXPECT_EQ(settings.pipeline.method, Method::Multiview);
+  EXPECT_EQ(settings.pipeline.views, ViewSelection::Star);
+  EXPECT_FLOAT_EQ(settings.pipeline.min_confidence, 0.25F);
+  EXPECT_FLOAT_EQ(settings.pipeline.dense_cloud.voxel_size_m, 0.5F);
+  EXPECT_FALSE(settings.dense_cloud);
 }
 
 TEST(Settings, TakeADisparityRangeOnlyWhenItIsNotToBeFound)

@@ -93,7 +93,7 @@ TEST_F(DepthNodeTest, PublishesDisparityDepthAndCloudsOfASyntheticArray)
 
   const auto& report = *stats.newest();
   EXPECT_EQ(report.views_expected, 9U);
-  EXPECT_EQ(report.method, "multiview");
+  EXPECT_EQ(report.method, toString(PipelineOptions().method));
   EXPECT_GT(report.latency_ms, 0.0);
   EXPECT_GE(report.latency_ms, report.pipeline_ms);
   EXPECT_EQ(report.received_by_view.size(), 9U);

@@ -279,7 +279,7 @@ TEST_F(DepthNodeTest, IsDestroyedInMidFrameWithoutWaitingForIt)
   const SyntheticLightField scene = syntheticArray(gridPositions(3, 3), {512, 512});
   ArrayPublisher array(*array_space_, scene.light_field);
   std::vector<double> milliseconds;
-  for (int round = 0; round < 7; ++round)
+  for (int round = 0; round < 5; ++round)
   {
     startNode(scene.light_field);
     const StatsListener stats(*node_space_, "stats");
@@ -293,8 +293,8 @@ TEST_F(DepthNodeTest, IsDestroyedInMidFrameWithoutWaitingForIt)
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
   // The median, so that a busy machine does not decide.
-  std::nth_element(milliseconds.begin(), milliseconds.begin() + 3, milliseconds.end());
-  EXPECT_LT(milliseconds[3], 200.0);
+  std::nth_element(milliseconds.begin(), milliseconds.begin() + 2, milliseconds.end());
+  EXPECT_LT(milliseconds[2], 200.0);
 }
 
 TEST_F(DepthNodeTest, RefusesParametersBeforeItAdvertisesAnything)
