@@ -78,6 +78,6 @@ int main(int argc, char** argv)
   DatasetInputOptions options;
   bool loop = false;
   addDatasetInputOptions(app, options);
-  app.add_flag("--loop", loop, "Go on until stopped");
+  app.add_option("--loop", loop, "true: go on until stopped")->capture_default_str();
   return runTool(app, argc, argv, [&] { play(options, loop); });
 }
