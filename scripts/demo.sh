@@ -78,12 +78,32 @@ $HEADLESS && start_virtual_display "$SCRATCH/display"
 
 say "starting the nodelet and RViz"
 roslaunch --port "$PORT" light_field_depth demo.launch bag:="$SCRATCH/demo.bag" >"$SCRATCH/roslaunch.log" 2>&1 &
-PIDS+=($!)
+LAUNCH=$!
+PIDS+=("$LAUNCH")
 
-"$TOOLS/demo_report" --truth "$TOP/data/demo/truth.pfm" --output "$OUTPUT" --timeout 90 || {
+# fail SENTENCE: with what the launch said last.
+fail()
+{
   tail -n 30 "$SCRATCH/roslaunch.log" >&2
+  say "$1"
   exit 1
 }
+
+master_answers()
+{
+  kill -0 "$LAUNCH" 2>/dev/null || fail "roslaunch ended early."
+  (exec 3<>"/dev/tcp/localhost/$PORT") 2>/dev/null
+}
+wait_until 30 master_answers || fail "The ROS master did not come up within 30 s."
+
+"$TOOLS/demo_report" --truth "$TOP/data/demo/truth.pfm" --output "$OUTPUT" --timeout 90 &
+REPORT=$!
+PIDS+=("$REPORT")
+while kill -0 "$REPORT" 2>/dev/null; do
+  kill -0 "$LAUNCH" 2>/dev/null || fail "roslaunch ended early."
+  sleep 0.5
+done
+wait "$REPORT" || fail "No result came."
 
 if $HEADLESS; then
   say "taking the picture"
@@ -91,5 +111,5 @@ if $HEADLESS; then
   say "$OUTPUT: rviz.png, disparity.png, cloud.ply"
 else
   say "$OUTPUT: disparity.png, cloud.ply. Close RViz or press Ctrl-C to end."
-  wait "${PIDS[0]}"
+  wait "$LAUNCH"
 fi
