@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "label_support.h"
+#include "light_field_depth/core/noise_estimate.h"
 #include "plane_sweep.h"
 
 namespace light_field_depth
@@ -17,11 +19,15 @@ namespace light_field_depth
 namespace
 {
 /// The reduced images have at least this many pixels on their longer side (if the views have them).
-constexpr int COARSE_SIDE_PX = 128;
-constexpr int FINE_SIDE_PX = 256;
+constexpr int COARSE_SIDE_PX = 96;
+constexpr int FINE_SIDE_PX = 192;
 /// Spacing of the labels, in pixels of the reduced images, in the farthest view.
 constexpr float LABEL_DISPLACEMENT = 0.5F;
-/// A sweep also looks this many labels of the sweep before beyond what that found.
+/// The second sweep looks for objects that were too small for the first one, the larger of this many labels
+/// and this fraction of the range on both sides of what that found.
+constexpr float SMALL_OBJECT_LABELS = 2.0F;
+constexpr float SMALL_OBJECT_FRACTION = 0.25F;
+/// The third sweep looks this many labels beyond what the second found, which could not resolve more.
 constexpr float MARGIN_LABELS = 1.5F;
 
 /// Views in one of the four directions from the reference, nearest first.
@@ -127,6 +133,25 @@ SmallView shrink(const cv::Mat& image, int fine_halvings, int coarse_halvings)
   return result;
 }
 
+/// Side of the Gaussian kernel that a noisy image needs before single pixels are compared; 1 for none.
+int blurFor(const cv::Mat& image)
+{
+  constexpr float SLIGHT_NOISE = 1.0F;
+  constexpr float STRONG_NOISE = 2.0F;
+  const float noise = estimateNoise(image);
+  return noise < SLIGHT_NOISE ? 1 : noise < STRONG_NOISE ? 3 : 5;
+}
+
+cv::Mat blurred(const cv::Mat& image, int kernel_side)
+{
+  cv::Mat result = image;
+  if (kernel_side > 1)
+  {
+    cv::GaussianBlur(image, result, cv::Size(kernel_side, kernel_side), 0.0);
+  }
+  return result;
+}
+
 /// The small images of the views that take part, and what the sweeps have found so far.
 class RangeFinder
 {
@@ -148,14 +173,18 @@ public:
   {
     const float most = largestDisparity(options);
     range_ = {-most, most};
-    step_ = 0.0F;
     sweep(Views::Nearest, coarse_halvings_);
-    if (farthest_ > 1.5 * nearest_)
-    {
-      sweep(Views::Farther, coarse_halvings_);
-    }
     if (found_ && fine_halvings_ < coarse_halvings_)
     {
+      widen(std::max(SMALL_OBJECT_LABELS * step_, SMALL_OBJECT_FRACTION * (range_.max - range_.min)), most);
+      sweep(Views::Nearest, fine_halvings_);
+    }
+    if (farthest_ > 1.5 * nearest_)
+    {
+      widen(MARGIN_LABELS * step_, most);
+      const DisparityRange wide = range_;
+      sweep(Views::Farther, coarse_halvings_);
+      range_ = wide;
       sweep(Views::Farther, fine_halvings_);
     }
     if (!found_)
@@ -195,13 +224,26 @@ private:
       views.insert(views.end(), arm.begin(), arm.end());
     }
     small_.resize(views.size());
-    pool_.parallelFor(0, static_cast<int>(views.size()), 1,
+    forEachSmallView([&](std::size_t i)
+                     { small_[i] = shrink(views[i]->image, fine_halvings_, coarse_halvings_); });
+    const int fine_blur = blurFor(small_.front().fine);
+    const int coarse_blur = blurFor(small_.front().coarse);
+    forEachSmallView(
+        [&](std::size_t i)
+        {
+          small_[i].fine = blurred(small_[i].fine, fine_blur);
+          small_[i].coarse = blurred(small_[i].coarse, coarse_blur);
+        });
+  }
+
+  void forEachSmallView(const std::function<void(std::size_t)>& body)
+  {
+    pool_.parallelFor(0, static_cast<int>(small_.size()), 1,
                       [&](int first, int last)
                       {
-                        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last);
-                             ++i)
+                        for (int i = first; i < last; ++i)
                         {
-                          small_[i] = shrink(views[i]->image, fine_halvings_, coarse_halvings_);
+                          body(static_cast<std::size_t>(i));
                         }
                       });
   }
@@ -237,23 +279,27 @@ private:
     return plan;
   }
 
-  /// Narrows range_ to what is supported inside range_, widened by what the sweep before could not resolve.
+  void widen(float margin, float most)
+  {
+    range_.min = std::max(range_.min - margin, -most);
+    range_.max = std::min(range_.max + margin, most);
+  }
+
+  /// Narrows range_ to what is supported inside it.
   void sweep(Views which, int halvings)
   {
-    const DisparityRange before = range_;
-    range_.min -= MARGIN_LABELS * step_;
-    range_.max += MARGIN_LABELS * step_;
     const PlaneSweep plan = planSweep(which, halvings);
     const CostVolume volume = sweepPlanes(plan, pool_);
-    const std::optional<LabelRange> supported = findSupportedLabels(volume, pool_);
-    if (!supported)
+    const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_);
+    if (!support)
     {
-      range_ = before;
       return;
     }
-    range_ = {plan.disparity(static_cast<float>(supported->first)),
-              plan.disparity(static_cast<float>(supported->last))};
     step_ = plan.disparity_step;
+    resolved_.min = std::min(resolved_.min, plan.disparity(static_cast<float>(support->core.first) + 0.5F));
+    resolved_.max = std::max(resolved_.max, plan.disparity(static_cast<float>(support->core.last) - 0.5F));
+    range_.min = std::min(resolved_.min, plan.disparity(static_cast<float>(support->all.first)));
+    range_.max = std::max(resolved_.max, plan.disparity(static_cast<float>(support->all.last)));
     found_ = true;
   }
 
@@ -265,6 +311,9 @@ private:
   double farthest_ = 0.0;
   std::vector<SmallView> small_;  ///< the reference, then the views of the arms in order
   DisparityRange range_;
+  /// What some sweep was sure of but for its resolution: noise may hide at a fine scale what stood out at a
+  /// coarse one.
+  DisparityRange resolved_{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
   float step_ = 0.0F;
   bool found_ = false;
 };

@@ -66,11 +66,18 @@ class Contrast
 {
 public:
   /// @param typical the median of the costs of the best labels, which measures noise
-  explicit Contrast(std::uint16_t typical) : margin_(SWEEP_COST_PER_GREY_LEVEL + typical / 2) {}
+  explicit Contrast(std::uint16_t typical)
+      : margin_(std::clamp(2 * typical, LEAST_MARGIN, MOST_MARGIN) + typical / 2)
+  {
+  }
 
   bool isClear(int cost, int rival) const { return 2 * rival > 3 * cost + 2 * margin_; }
 
 private:
+  /// What rounding leaves of a perfect match.
+  static constexpr int LEAST_MARGIN = SWEEP_COST_PER_GREY_LEVEL * 3 / 8;
+  static constexpr int MOST_MARGIN = SWEEP_COST_PER_GREY_LEVEL;
+
   int margin_;
 };
 
@@ -219,7 +226,7 @@ LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners
 
 }  // namespace
 
-std::optional<LabelRange> findSupportedLabels(const CostVolume& volume, ThreadPool& pool)
+std::optional<LabelSupport> findSupportedLabels(const CostVolume& volume, ThreadPool& pool)
 {
   const Winners winners = findWinners(volume, pool);
   const Contrast contrast(median(winners.cost));
@@ -228,7 +235,7 @@ std::optional<LabelRange> findSupportedLabels(const CostVolume& volume, ThreadPo
   {
     return std::nullopt;
   }
-  return widen(*core, volume, winners, contrast);
+  return LabelSupport{*core, widen(*core, volume, winners, contrast)};
 }
 
 }  // namespace light_field_depth

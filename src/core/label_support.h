@@ -15,6 +15,13 @@ struct LabelRange
   int last = 0;
 };
 
+/// Labels with evidence.
+struct LabelSupport
+{
+  LabelRange core;  ///< holds the bulk of the pixels that are certain of their label
+  LabelRange all;   ///< holds the core
+};
+
 /// The labels that the images of a plane sweep give evidence for.
 ///
 /// A pixel is certain of its best label if every label outside that minimum costs clearly more. The bulk of
@@ -22,7 +29,7 @@ struct LabelRange
 /// they are certain, too, or if their best label costs clearly less than every label of the core. So neither
 /// noise nor repeated texture widens it, and a small object does.
 /// @return nothing if hardly any pixel is certain
-std::optional<LabelRange> findSupportedLabels(const CostVolume& volume, ThreadPool& pool);
+std::optional<LabelSupport> findSupportedLabels(const CostVolume& volume, ThreadPool& pool);
 
 }  // namespace light_field_depth
 

@@ -63,9 +63,9 @@ class LabelSweeper
 public:
   explicit LabelSweeper(const PlaneSweep& sweep)
       : sweep_(sweep), width_(sweep.reference.cols), height_(sweep.reference.rows),
-        sums_(sweep.reference.total()),
-        columns_(static_cast<std::size_t>(width_) + 2 * WINDOW_RADIUS), worst_(sums_.size()),
-        row_a_(static_cast<std::size_t>(width_) + 1), row_b_(static_cast<std::size_t>(width_) + 1)
+        sums_(sweep.reference.total()), columns_(static_cast<std::size_t>(width_) + 2 * WINDOW_RADIUS),
+        worst_(sums_.size()), row_a_(static_cast<std::size_t>(width_) + 1),
+        row_b_(static_cast<std::size_t>(width_) + 1)
   {
   }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "light_field_depth/core/thread_pool.h"
+
 namespace light_field_depth::testing
 {
 namespace
@@ -22,20 +24,33 @@ float latticeValue(std::uint32_t seed, std::int32_t x, std::int32_t y)
   return static_cast<float>(h & 0xFFFFFFU) / 16777215.0F;
 }
 
-/// Value noise with C2-continuous interpolation, 0..1.
-float valueNoise(std::uint32_t seed, double x, double y)
+/// A place between the points of a lattice, with weights for C2-continuous interpolation.
+struct LatticePlace
 {
-  const double floor_x = std::floor(x);
-  const double floor_y = std::floor(y);
-  const auto fade = [](double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); };
-  const auto u = static_cast<float>(fade(x - floor_x));
-  const auto v = static_cast<float>(fade(y - floor_y));
-  const auto ix = static_cast<std::int32_t>(floor_x);
-  const auto iy = static_cast<std::int32_t>(floor_y);
-  const float top = latticeValue(seed, ix, iy) * (1 - u) + latticeValue(seed, ix + 1, iy) * u;
-  const float bottom = latticeValue(seed, ix, iy + 1) * (1 - u) + latticeValue(seed, ix + 1, iy + 1) * u;
-  return top * (1 - v) + bottom * v;
-}
+  LatticePlace(double x, double y)
+  {
+    const double floor_x = std::floor(x);
+    const double floor_y = std::floor(y);
+    const auto fade = [](double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); };
+    u = static_cast<float>(fade(x - floor_x));
+    v = static_cast<float>(fade(y - floor_y));
+    ix = static_cast<std::int32_t>(floor_x);
+    iy = static_cast<std::int32_t>(floor_y);
+  }
+
+  /// Value noise, 0..1.
+  float noise(std::uint32_t seed) const
+  {
+    const float top = latticeValue(seed, ix, iy) * (1 - u) + latticeValue(seed, ix + 1, iy) * u;
+    const float bottom = latticeValue(seed, ix, iy + 1) * (1 - u) + latticeValue(seed, ix + 1, iy + 1) * u;
+    return top * (1 - v) + bottom * v;
+  }
+
+  std::int32_t ix;
+  std::int32_t iy;
+  float u;
+  float v;
+};
 
 /// Where the reference view sees the point of `surface` that a view at `steps` sees at `pixel`.
 cv::Point2d toReference(const Surface& surface, const cv::Point2d& pixel, const cv::Point2d& steps)
@@ -80,12 +95,10 @@ Hit trace(const std::vector<Surface>& surfaces, const cv::Point2d& pixel, const 
   return nearest;
 }
 
-cv::Mat renderView(const std::vector<Surface>& surfaces, const SceneSettings& settings,
-                   const cv::Point2d& steps)
+void renderRows(const std::vector<Surface>& surfaces, int n, const cv::Point2d& steps, int first, int last,
+                cv::Mat& values)
 {
-  cv::Mat values(settings.size, CV_32FC3);
-  const int n = settings.samples;
-  for (int y = 0; y < values.rows; ++y)
+  for (int y = first; y < last; ++y)
   {
     for (int x = 0; x < values.cols; ++x)
     {
@@ -102,6 +115,16 @@ cv::Mat renderView(const std::vector<Surface>& surfaces, const SceneSettings& se
       values.at<cv::Vec3f>(y, x) = sum * (1.0F / static_cast<float>(n * n));
     }
   }
+}
+
+cv::Mat renderView(const std::vector<Surface>& surfaces, const SceneSettings& settings,
+                   const cv::Point2d& steps, ThreadPool& pool)
+{
+  constexpr int ROWS_PER_CHUNK = 8;
+  cv::Mat values(settings.size, CV_32FC3);
+  pool.parallelFor(0, values.rows, ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   { renderRows(surfaces, settings.samples, steps, first, last, values); });
   return values;
 }
 
@@ -123,17 +146,18 @@ Texture noiseTexture(std::uint32_t seed, double scale_px, cv::Vec3f mean, float 
   return [=](double x, double y)
   {
     cv::Vec3f color = mean;
-    for (int channel = 0; channel < 3; ++channel)
+    double scale = scale_px;
+    float amplitude = contrast;
+    for (int octave = 0; octave < 4; ++octave)
     {
-      double scale = scale_px;
-      float amplitude = contrast;
-      for (int octave = 0; octave < 4; ++octave)
+      const LatticePlace place(x / scale, y / scale);
+      for (int channel = 0; channel < 3; ++channel)
       {
         const std::uint32_t octave_seed = seed * 64U + static_cast<std::uint32_t>(octave * 4 + channel);
-        color[channel] += amplitude * (valueNoise(octave_seed, x / scale, y / scale) - 0.5F);
-        scale *= 0.5;
-        amplitude *= 0.7F;
+        color[channel] += amplitude * (place.noise(octave_seed) - 0.5F);
       }
+      scale *= 0.5;
+      amplitude *= 0.7F;
     }
     return color;
   };
@@ -218,9 +242,10 @@ SyntheticLightField renderScene(const std::vector<Surface>& surfaces, const Scen
   SyntheticLightField result;
   result.light_field = makeLightField(std::move(views), settings.reference, settings.calibration);
   cv::RNG random(settings.noise_seed);
+  ThreadPool pool;
   for (View& view : result.light_field.views)
   {
-    cv::Mat values = renderView(surfaces, settings, view.steps);
+    cv::Mat values = renderView(surfaces, settings, view.steps, pool);
     if (settings.degrade)
     {
       settings.degrade(view.grid, values);
