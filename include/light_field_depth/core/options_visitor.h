@@ -76,7 +76,6 @@ void visitOptions(Options& options, Visitor&& visit)
   visit("multiview_refinements", options.multiview.refinements);
   visit("multiview_brightness_slope", options.multiview.brightness_slope);
   visit("multiview_refinement_smoothness", options.multiview.refinement_smoothness);
-  visitPaper2017Options(options.paper2017, visit);
 }
 
 /// @throw InputError that lists the names
