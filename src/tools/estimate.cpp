@@ -37,6 +37,7 @@ struct Arguments
   std::string views;
   std::vector<int> reference;
   std::vector<float> disparity_range;
+  bool stated_range = false;
   std::string flip;
   bool dense = false;
   int threads = 0;
@@ -57,9 +58,12 @@ void declare(CLI::App& app, Arguments& arguments)
       ->delimiter(',')
       ->expected(2);
   app.add_option("--disparity-range", arguments.disparity_range,
-                 "MIN,MAX in pixels between adjacent views; by default what the dataset states, else found")
+                 "MIN,MAX in pixels between adjacent views; found from the images by default")
       ->delimiter(',')
       ->expected(2);
+  app.add_flag("--stated-range", arguments.stated_range,
+               "search the range that the dataset's description states")
+      ->excludes("--disparity-range");
   app.add_option(
       "--flip", arguments.flip,
       "none, rows, columns or both: what is numbered against the convention (rows down, columns right)");
@@ -282,7 +286,7 @@ void estimate(const Arguments& arguments)
   {
     report.range_source = lfd::RangeSource::Given;
   }
-  else if (dataset.disparity_range)
+  else if (arguments.stated_range && dataset.disparity_range)
   {
     report.options.disparity_range = dataset.disparity_range;
     report.range_source = lfd::RangeSource::Dataset;
