@@ -18,7 +18,7 @@ constexpr double HIGH_PERCENTILE = 0.995;
 constexpr float MIN_SPAN_PX = 0.01F;
 const cv::Scalar UNKNOWN_COLOR(128, 128, 128);
 
-constexpr int SCALE_WIDTH_PX = 76;
+constexpr int SCALE_WIDTH_PX = 92;
 constexpr int BAR_LEFT_PX = 8;
 constexpr int BAR_WIDTH_PX = 14;
 constexpr int BAR_MARGIN_PX = 10;
