@@ -68,7 +68,8 @@ void appendBlocks(const RowSums& sums, int width, int channels, int rows,
       double level = 0.0;
       for (int x = left; x < right; ++x)
       {
-        const auto i = static_cast<std::size_t>(x * channels + channel);
+        const auto i = static_cast<std::size_t>(x) * static_cast<std::size_t>(channels) +
+                       static_cast<std::size_t>(channel);
         response += sums.response[i];
         level += sums.level[i];
       }

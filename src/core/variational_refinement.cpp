@@ -184,7 +184,7 @@ void Refinement::addLinks(const cv::Mat& disparity, GridSystem& system) const
   {
     for (int x = 0; x < disparity.cols; ++x)
     {
-      const auto slope = slopes.at<cv::Vec2f>(y, x);
+      const auto& slope = slopes.at<cv::Vec2f>(y, x);
       local.at<float>(y, x) = psiDerivative(slope.dot(slope)) * edge_weight_.at<float>(y, x);
     }
   }
@@ -255,6 +255,7 @@ std::vector<std::size_t> refinementViews(const LightField& light_field,
     }
   }
   std::vector<std::size_t> result;
+  result.reserve(chosen.size());
   for (const auto& entry : chosen)
   {
     result.push_back(entry.second);

@@ -109,6 +109,7 @@ std::vector<cv::Point2d> positionsFrom(const std::vector<sensor_msgs::CameraInfo
                                        std::size_t reference)
 {
   std::vector<cv::Point2d> positions;
+  positions.reserve(infos.size());
   for (const sensor_msgs::CameraInfo& info : infos)
   {
     positions.push_back(positionOf(info) - positionOf(infos[reference]));
@@ -130,6 +131,7 @@ std::vector<cv::Point2d> positionsFrom(const std::vector<GridPosition>& grid, st
   const double x = parameters.baseline_x_m > 0.0 ? parameters.baseline_x_m : parameters.baseline_y_m;
   const double y = parameters.baseline_y_m > 0.0 ? parameters.baseline_y_m : parameters.baseline_x_m;
   std::vector<cv::Point2d> positions;
+  positions.reserve(grid.size());
   for (const GridPosition& position : grid)
   {
     positions.emplace_back(x * (position.column - grid[reference].column),

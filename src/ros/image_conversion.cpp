@@ -100,8 +100,8 @@ cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& v
   checkLayout(message, *encoding, view_name);
   // cv::Mat knows no constant memory; what is returned is only read.
   auto* const data = const_cast<std::uint8_t*>(message.data.data());
-  const cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type,
-                       data, message.step);
+  cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type, data,
+                 message.step);
   if (encoding->conversion == NO_CONVERSION)
   {
     return shared;

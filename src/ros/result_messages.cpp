@@ -81,7 +81,7 @@ sensor_msgs::PointCloud2Ptr cloudMessage(const std_msgs::Header& header,
                                          const std::vector<ColoredPoint>& points, std::uint32_t width,
                                          std::uint32_t height, bool is_dense)
 {
-  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
+  auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
   cloud->header = header;
   sensor_msgs::PointCloud2Modifier modifier(*cloud);
   using sensor_msgs::PointField;
@@ -107,7 +107,7 @@ stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
                                                 const DisparityEstimate& estimate,
                                                 const Calibration& calibration, float min_confidence)
 {
-  const auto message = boost::make_shared<stereo_msgs::DisparityImage>();
+  auto message = boost::make_shared<stereo_msgs::DisparityImage>();
   const cv::Size size = estimate.disparity.size();
   message->header = header;
   shape(message->image, header, size, sensor_msgs::image_encodings::TYPE_32FC1, CV_32FC1);
@@ -130,7 +130,7 @@ stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
 
 sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv::Mat& values)
 {
-  const auto message = boost::make_shared<sensor_msgs::Image>();
+  auto message = boost::make_shared<sensor_msgs::Image>();
   shape(*message, header, values.size(), sensor_msgs::image_encodings::TYPE_32FC1, CV_32FC1);
   cv::Mat pixels = pixelsOf(*message, CV_32FC1);
   values.copyTo(pixels);
@@ -139,7 +139,7 @@ sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv
 
 sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header, const DisparityEstimate& estimate)
 {
-  const auto message = boost::make_shared<sensor_msgs::Image>();
+  auto message = boost::make_shared<sensor_msgs::Image>();
   shape(*message, header, estimate.disparity.size(), sensor_msgs::image_encodings::BGR8, CV_8UC3);
   const double scale = 255.0 / std::max(1e-6F, estimate.range.max - estimate.range.min);
   cv::Mat levels;

@@ -33,7 +33,7 @@ image_transport::Publisher advertiseImage(image_transport::ImageTransport& trans
 /// The reference view's CameraInfo as that of the results: no baseline to itself.
 sensor_msgs::CameraInfoPtr referenceInfo(const std_msgs::Header& header, const sensor_msgs::CameraInfo& info)
 {
-  const auto result = boost::make_shared<sensor_msgs::CameraInfo>(info);
+  auto result = boost::make_shared<sensor_msgs::CameraInfo>(info);
   result->header = header;
   result->P[3] = 0.0;
   result->P[7] = 0.0;

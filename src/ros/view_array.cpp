@@ -144,6 +144,7 @@ LightField placeholders(const std::vector<GridPosition>& grid, const std::option
 {
   const cv::Mat image = cv::Mat::zeros(16, 16, CV_8UC1);
   std::vector<View> views;
+  views.reserve(grid.size());
   for (const GridPosition& position : grid)
   {
     views.push_back(gridView(position.row, position.column, image));

@@ -119,6 +119,7 @@ std::vector<ColoredPoint> pointsOf(const sensor_msgs::PointCloud2& cloud)
 void printLatency(const std::vector<LightFieldDepthStatsConstPtr>& stats)
 {
   std::vector<double> latencies_ms;
+  latencies_ms.reserve(stats.size());
   for (const LightFieldDepthStatsConstPtr& frame : stats)
   {
     latencies_ms.push_back(frame->latency_ms);

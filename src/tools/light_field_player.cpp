@@ -22,6 +22,7 @@ std::vector<ViewPublishers> advertise(const std::vector<ViewMessages>& views)
 {
   ros::NodeHandle node_handle;
   std::vector<ViewPublishers> publishers;
+  publishers.reserve(views.size());
   for (const ViewMessages& view : views)
   {
     publishers.push_back(
