@@ -144,11 +144,12 @@ int blurFor(const cv::Mat& image)
 
 cv::Mat blurred(const cv::Mat& image, int kernel_side)
 {
-  cv::Mat result = image;
-  if (kernel_side > 1)
+  if (kernel_side <= 1)
   {
-    cv::GaussianBlur(image, result, cv::Size(kernel_side, kernel_side), 0.0);
+    return image;
   }
+  cv::Mat result;  // must not share the pixels of the image, which may be the caller's
+  cv::GaussianBlur(image, result, cv::Size(kernel_side, kernel_side), 0.0);
   return result;
 }
 

@@ -189,6 +189,32 @@ TEST(DisparityRange, RejectsOptionsThatCannotBeUsed)
   EXPECT_EQ(validate(DisparityRangeOptions{0.0F, -1.0F, 0.0F}).size(), 3U);
 }
 
+TEST(DisparityRange, LeavesTheViewsAsTheyAre)
+{
+  constexpr double NOISE_SIGMA = 5.0;  // enough for the search to smooth its own pictures
+  for (const cv::Size size : {cv::Size(120, 90), cv::Size(400, 30)})
+  {
+    SceneSettings settings;
+    settings.size = size;
+    settings.positions = crossPositions(5, 5);
+    settings.noise_sigma = NOISE_SIGMA;
+    settings.grey = true;
+    const SyntheticLightField scene = renderScene(layers(size, -1.0, 1.0), settings);
+    std::vector<cv::Mat> before;
+    for (const View& view : scene.light_field.views)
+    {
+      before.push_back(view.image.clone());
+    }
+    ThreadPool pool(2);
+    findDisparityRange(scene.light_field, pool);
+    for (std::size_t i = 0; i < before.size(); ++i)
+    {
+      EXPECT_EQ(cv::norm(before[i], scene.light_field.views[i].image, cv::NORM_INF), 0.0)
+          << "view " << i << " of " << size;
+    }
+  }
+}
+
 TEST(DisparityRange, CoversTheTruthOfTheBenchmarkScenes)
 {
   ThreadPool pool(2);
