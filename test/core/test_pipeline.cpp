@@ -46,6 +46,34 @@ TEST(Pipeline, FindsTheDisparityOfASyntheticScene)
   EXPECT_LT(testing::meanAbsoluteError(result.estimate.disparity, input.truth), 0.3);
 }
 
+TEST(Pipeline, LeavesTheViewsAsTheyAre)
+{
+  for (const bool grey : {false, true})
+  {
+    testing::SceneSettings settings;
+    settings.positions = testing::crossPositions(5, 5);
+    settings.noise_sigma = 5.0;
+    settings.grey = grey;
+    const auto input = testing::renderScene(testing::standardScene(settings.size), settings);
+    std::vector<cv::Mat> before;
+    for (const View& view : input.light_field.views)
+    {
+      before.push_back(view.image.clone());
+    }
+    for (const std::string& method : methodNames())
+    {
+      PipelineOptions options;
+      options.method = methodFromString(method);
+      Pipeline(2).run(input.light_field, options, {});
+      for (std::size_t i = 0; i < before.size(); ++i)
+      {
+        EXPECT_EQ(cv::norm(before[i], input.light_field.views[i].image, cv::NORM_INF), 0.0)
+            << method << (grey ? ", grey" : ", colour") << ", view " << i;
+      }
+    }
+  }
+}
+
 TEST(Pipeline, NamesEveryOptionThatCannotBeUsed)
 {
   PipelineOptions options;
