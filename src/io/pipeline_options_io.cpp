@@ -189,6 +189,16 @@ void setOption(PipelineOptions& options, const std::string& name, const std::str
   }
 }
 
+void setOption(PipelineOptions& options, const std::string& assignment)
+{
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos)
+  {
+    throw InputError("A setting is given as NAME=VALUE, but this one is '" + assignment + "'.");
+  }
+  setOption(options, assignment.substr(0, equals), assignment.substr(equals + 1));
+}
+
 void readOptionsFile(const std::filesystem::path& path, PipelineOptions& options)
 {
   const YAML::Node top = loadYaml(path);

@@ -76,16 +76,6 @@ void declare(CLI::App& app, Arguments& arguments)
   app.add_option("--set", arguments.settings, "NAME=VALUE of one setting; may be repeated");
 }
 
-void applySetting(const std::string& text, lfd::PipelineOptions& options)
-{
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos)
-  {
-    throw lfd::InputError("--set needs NAME=VALUE, but got '" + text + "'.");
-  }
-  lfd::setOption(options, text.substr(0, equals), text.substr(equals + 1));
-}
-
 /// Later ones win: the defaults, the file, --set, the options with a name of their own.
 lfd::PipelineOptions makeOptions(const Arguments& arguments)
 {
@@ -96,7 +86,7 @@ lfd::PipelineOptions makeOptions(const Arguments& arguments)
   }
   for (const std::string& setting : arguments.settings)
   {
-    applySetting(setting, options);
+    lfd::setOption(options, setting);
   }
   if (!arguments.method.empty())
   {

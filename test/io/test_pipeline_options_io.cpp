@@ -48,6 +48,15 @@ TEST(PipelineOptionsIo, EveryNameIsUniqueAndEveryDefaultCanBeSetAgain)
   EXPECT_GT(names.size(), 20U);
 }
 
+TEST(PipelineOptionsIo, TakesAnAssignment)
+{
+  PipelineOptions options;
+  setOption(options, "cpm_levels=3");
+  EXPECT_EQ(options.paper2017.patch_match.levels, 3);
+  EXPECT_EQ(testing::messageOf<InputError>([&] { setOption(options, "cpm_levels"); }),
+            "A setting is given as NAME=VALUE, but this one is 'cpm_levels'.");
+}
+
 TEST(PipelineOptionsIo, SetsEveryKindOfValue)
 {
   PipelineOptions options;

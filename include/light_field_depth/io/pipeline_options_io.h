@@ -29,6 +29,9 @@ std::string toString(const OptionValue& value);
 /// Sets one setting from text. @throw InputError if there is no such setting or the text does not fit it
 void setOption(PipelineOptions& options, const std::string& name, const std::string& text);
 
+/// The same from one text "NAME=VALUE". @throw InputError, also if there is no '='
+void setOption(PipelineOptions& options, const std::string& assignment);
+
 /// Sets all settings of a YAML file of `name: value` pairs; besides the names of visitOptions(),
 /// `disparity_range: [min, max]` is known. @throw InputError that names the file and the field
 void readOptionsFile(const std::filesystem::path& path, PipelineOptions& options);

@@ -1,0 +1,60 @@
+#include "contestant.h"
+
+#include <utility>
+
+#include "light_field_depth/core/error.h"
+#include "light_field_depth/io/pipeline_options_io.h"
+
+namespace light_field_depth::benchmark
+{
+PipelineOptions optionsOf(const Variant& variant)
+{
+  PipelineOptions options;
+  for (const std::string& setting : variant.settings)
+  {
+    setOption(options, setting);
+  }
+  const std::vector<std::string> problems = validate(options);
+  if (!problems.empty())
+  {
+    throw InputError("The variant '" + variant.name + "' cannot be run: " + problems.front());
+  }
+  return options;
+}
+
+Contestant makeContestant(const Variant& variant, std::shared_ptr<Pipeline> pipeline)
+{
+  return {variant.name,
+          [pipeline = std::move(pipeline), options = optionsOf(variant)](const LightField& light_field)
+          {
+            const PipelineResult result = pipeline->run(light_field, options, {});
+            return Answer{result.estimate.disparity, result.estimate.confidence};
+          }};
+}
+
+std::vector<Result> measure(const Scene& scene, const std::vector<Contestant>& contestants, int rounds)
+{
+  std::vector<Result> results;
+  results.reserve(contestants.size());
+  for (const Contestant& contestant : contestants)
+  {
+    results.push_back({scene.name, contestant.name, {}, {}});
+  }
+  for (int round = 0; round < rounds; ++round)
+  {
+    for (std::size_t i = 0; i < contestants.size(); ++i)
+    {
+      contestants[i].run(scene.light_field);
+      Answer answer;
+      results[i].timing.milliseconds.push_back(
+          millisecondsOf([&] { answer = contestants[i].run(scene.light_field); }));
+      if (round + 1 == rounds)
+      {
+        results[i].evaluation = evaluate(answer.disparity, scene.truth);
+      }
+    }
+  }
+  return results;
+}
+
+}  // namespace light_field_depth::benchmark

@@ -1,0 +1,115 @@
+#include "light_fields.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "contestant.h"
+#include "opencv_baselines.h"
+
+namespace light_field_depth::benchmark
+{
+namespace
+{
+/// A new preset or method joins the table with one line.
+const std::vector<Variant>& ownMethods()
+{
+  static const std::vector<Variant> methods = {
+      {"quality", {"multiview_preset=quality"}},
+      {"balanced", {"multiview_preset=balanced"}},
+      {"realtime", {"multiview_preset=realtime"}},
+      {"paper2017", {"method=paper2017"}},
+  };
+  return methods;
+}
+
+/// What the others are compared with.
+constexpr const char* YARDSTICK = "OpenCV DIS, median of 16";
+
+/// The stereo matchers of OpenCV need to be told a range and get the true one; the others find it.
+std::vector<Contestant> openCvMethods(const DisparityRange& range)
+{
+  return {{YARDSTICK,
+           [](const LightField& light_field) {
+             return Answer{disMedian(light_field), {}};
+           }},
+          {"OpenCV SGBM, widest pair",
+           [range](const LightField& light_field) {
+             return Answer{semiGlobalWidestPair(light_field, range), {}};
+           }},
+          {"OpenCV BM, widest pair", [range](const LightField& light_field) {
+             return Answer{blockMatchingWidestPair(light_field, range), {}};
+           }}};
+}
+
+/// How often a method would have been done while the yardstick ran once; taken round by round, so that a
+/// machine that changes its speed does not change it.
+double speedup(const Result& yardstick, const Result& result)
+{
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < result.timing.milliseconds.size(); ++i)
+  {
+    ratios.push_back(yardstick.timing.milliseconds[i] / result.timing.milliseconds[i]);
+  }
+  return median(std::move(ratios));
+}
+
+void report(const std::vector<Result>& results, Table& table, nlohmann::ordered_json& rows)
+{
+  const auto yardstick = std::find_if(results.begin(), results.end(),
+                                      [](const Result& result) { return result.name == YARDSTICK; });
+  for (const Result& result : results)
+  {
+    const Evaluation& accuracy = result.evaluation;
+    const double faster = speedup(*yardstick, result);
+    const double mse_ratio = accuracy.mse_100 / yardstick->evaluation.mse_100;
+    table.rows.push_back({result.scene, result.name, toText(result.timing), fixed(faster, 1),
+                          fixed(accuracy.mse_100, 2), fixed(mse_ratio, 2), fixed(accuracy.badpix_007, 2),
+                          fixed(accuracy.badpix_003, 1), fixed(accuracy.coverage, 2)});
+    nlohmann::ordered_json row;
+    row["scene"] = result.scene;
+    row["method"] = result.name;
+    row["time"] = toJson(result.timing);
+    row["times_as_fast_as_dis"] = faster;
+    row["accuracy"] = nlohmann::ordered_json::parse(toJson(accuracy));
+    row["mse_to_that_of_dis"] = mse_ratio;
+    rows.push_back(row);
+  }
+}
+
+}  // namespace
+
+void compareMethods(const Settings& settings)
+{
+  Table table;
+  table.header = {"scene",
+                  "method",
+                  "time, median (min..max) ms",
+                  "x as fast as DIS",
+                  "MSE x 100",
+                  "MSE / that of DIS",
+                  "BadPix 0.07 %",
+                  "BadPix 0.03 %",
+                  "coverage"};
+  nlohmann::ordered_json json = describeMachine(settings);
+  std::vector<Contestant> own;
+  for (const Variant& variant : ownMethods())
+  {
+    own.push_back(makeContestant(variant, std::make_shared<Pipeline>(settings.threads)));
+  }
+  for (const std::string& input : settings.inputs)
+  {
+    const Scene scene = readScene(input, settings.threads);
+    std::vector<Contestant> all = own;
+    for (Contestant& contestant : openCvMethods(rangeOf(scene.truth)))
+    {
+      all.push_back(std::move(contestant));
+    }
+    report(measure(scene, all, settings.runs), table, json["rows"]);
+  }
+  publish(settings, "light_fields", table, json);
+}
+
+}  // namespace light_field_depth::benchmark

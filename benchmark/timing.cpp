@@ -1,0 +1,68 @@
+#include "timing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace light_field_depth::benchmark
+{
+namespace
+{
+/// Nobody reads nanoseconds of a frame.
+double rounded(double milliseconds)
+{
+  constexpr double per_millisecond = 1000.0;
+  return std::round(milliseconds * per_millisecond) / per_millisecond;
+}
+
+}  // namespace
+
+double median(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double Timing::median() const
+{
+  return benchmark::median(milliseconds);
+}
+
+double Timing::fastest() const
+{
+  return *std::min_element(milliseconds.begin(), milliseconds.end());
+}
+
+double Timing::slowest() const
+{
+  return *std::max_element(milliseconds.begin(), milliseconds.end());
+}
+
+std::string toText(const Timing& timing)
+{
+  constexpr double few_milliseconds = 10.0;
+  std::array<char, 64> text{};
+  const int decimals = timing.median() < few_milliseconds ? 1 : 0;
+  std::snprintf(text.data(), text.size(), "%.*f (%.*f..%.*f)", decimals, timing.median(), decimals,
+                timing.fastest(), decimals, timing.slowest());
+  return text.data();
+}
+
+nlohmann::ordered_json toJson(const Timing& timing)
+{
+  nlohmann::ordered_json json;
+  json["median_ms"] = rounded(timing.median());
+  json["min_ms"] = rounded(timing.fastest());
+  json["max_ms"] = rounded(timing.slowest());
+  for (const double milliseconds : timing.milliseconds)
+  {
+    json["all_ms"].push_back(rounded(milliseconds));
+  }
+  return json;
+}
+
+}  // namespace light_field_depth::benchmark

@@ -1,0 +1,41 @@
+#ifndef LIGHT_FIELD_DEPTH_BENCHMARK_TIMING_H
+#define LIGHT_FIELD_DEPTH_BENCHMARK_TIMING_H
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace light_field_depth::benchmark
+{
+/// Wall-clock times of the same work, one entry a run.
+struct Timing
+{
+  std::vector<double> milliseconds;
+
+  double median() const;
+  double fastest() const;
+  double slowest() const;
+};
+
+/// Of the values, the mean of the two in the middle where their number is even. @pre not empty
+double median(std::vector<double> values);
+
+/// "183 (153..306)"; with decimals below ten.
+std::string toText(const Timing& timing);
+/// {"median_ms": 183, "min_ms": ..., "max_ms": ..., "all_ms": [...]}
+nlohmann::ordered_json toJson(const Timing& timing);
+
+/// Time that an action takes.
+template <class Action>
+double millisecondsOf(const Action& action)
+{
+  const auto start = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace light_field_depth::benchmark
+
+#endif  // LIGHT_FIELD_DEPTH_BENCHMARK_TIMING_H
