@@ -73,7 +73,7 @@ void ablate(const Settings& settings)
       row["variant"] = results[i].name;
       row["settings"] = variants()[i].settings;
       row["time"] = toJson(results[i].timing);
-      row["accuracy"] = nlohmann::ordered_json::parse(toJson(results[i].evaluation));
+      row["accuracy"] = accuracyJson(results[i]);
       json["rows"].push_back(row);
     }
   }

@@ -29,7 +29,7 @@ int run(int argc, char** argv)
   app.add_option("--threads", settings.threads, "threads of every method")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
-  app.add_option("--results", settings.results, "folder for the tables and JSON files");
+  app.add_option("--results", settings.results, "folder for the tables and JSON files")->take_last();
   CLI11_PARSE(app, argc, argv);
 
   cv::setNumThreads(settings.threads);

@@ -2,11 +2,26 @@
 
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/pipeline_options_io.h"
 
 namespace light_field_depth::benchmark
 {
+namespace
+{
+void score(const Answer& answer, const Scene& scene, Result& result)
+{
+  result.evaluation = evaluate(answer.disparity, scene.truth);
+  if (!answer.confidence.empty())
+  {
+    result.sparsification = sparsify(answer.disparity, answer.confidence, scene.truth);
+  }
+}
+
+}  // namespace
+
 PipelineOptions optionsOf(const Variant& variant)
 {
   PipelineOptions options;
@@ -32,13 +47,23 @@ Contestant makeContestant(const Variant& variant, std::shared_ptr<Pipeline> pipe
           }};
 }
 
+nlohmann::ordered_json accuracyJson(const Result& result)
+{
+  auto json = nlohmann::ordered_json::parse(toJson(result.evaluation));
+  if (result.sparsification)
+  {
+    json["sparsification"] = nlohmann::ordered_json::parse(toJson(*result.sparsification));
+  }
+  return json;
+}
+
 std::vector<Result> measure(const Scene& scene, const std::vector<Contestant>& contestants, int rounds)
 {
   std::vector<Result> results;
   results.reserve(contestants.size());
   for (const Contestant& contestant : contestants)
   {
-    results.push_back({scene.name, contestant.name, {}, {}});
+    results.push_back({scene.name, contestant.name, {}, {}, {}});
   }
   for (int round = 0; round < rounds; ++round)
   {
@@ -50,7 +75,7 @@ std::vector<Result> measure(const Scene& scene, const std::vector<Contestant>& c
           millisecondsOf([&] { answer = contestants[i].run(scene.light_field); }));
       if (round + 1 == rounds)
       {
-        results[i].evaluation = evaluate(answer.disparity, scene.truth);
+        score(answer, scene, results[i]);
       }
     }
   }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "light_field_depth/core/light_field.h"
 #include "light_field_depth/core/pipeline.h"
 #include "light_field_depth/io/evaluation.h"
+#include "light_field_depth/io/sparsification.h"
 #include "scene.h"
 #include "timing.h"
 
@@ -50,7 +52,11 @@ struct Result
   std::string name;
   Timing timing;
   Evaluation evaluation;
+  std::optional<Sparsification> sparsification;  ///< only of methods that tell their confidence
 };
+
+/// What both tables say about accuracy, in one object.
+nlohmann::ordered_json accuracyJson(const Result& result);
 
 /// Runs every contestant in every round, so that a machine that changes its speed changes it for all. In
 /// each round a contestant sees the light field twice, as in a stream of frames: once to fill its caches,

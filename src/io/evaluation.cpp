@@ -3,114 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "light_field_depth/core/error.h"
+#include "figure_text.h"
+#include "scored_pixels.h"
 
 namespace light_field_depth
 {
 namespace
 {
-constexpr int MAX_BORDER_PX = 65536;
-
-std::string sizeText(const cv::Size& size)
-{
-  return std::to_string(size.width) + " x " + std::to_string(size.height);
-}
-
-void checkSizes(const cv::Mat& result, const cv::Mat& truth, const cv::Mat& mask, int border_px)
-{
-  CV_Assert(result.type() == CV_32FC1 && truth.type() == CV_32FC1 &&
-            (mask.empty() || mask.type() == CV_8UC1));
-  if (result.cols > truth.cols || result.rows > truth.rows)
-  {
-    throw InputError("The result has " + sizeText(result.size()) +
-                     " pixels and is larger than the truth with " + sizeText(truth.size()) +
-                     "; compare maps of the same light field.");
-  }
-  if (!mask.empty() && mask.size() != truth.size())
-  {
-    throw InputError("The mask has " + sizeText(mask.size()) + " pixels, the truth " +
-                     sizeText(truth.size()) + "; give a mask in the size of the truth.");
-  }
-  if (border_px < 0 || border_px > MAX_BORDER_PX)
-  {
-    throw InputError("The border is " + std::to_string(border_px) + " px; it must be between 0 and " +
-                     std::to_string(MAX_BORDER_PX) + ".");
-  }
-}
-
-/// The pixels of the truth that are scored: those of the result that are not within the border.
-cv::Rect scoredArea(const cv::Size& result_size, const cv::Size& truth_size, int border_px)
-{
-  const cv::Point margin((truth_size.width - result_size.width) / 2,
-                         (truth_size.height - result_size.height) / 2);
-  const cv::Point cut(std::max(border_px - margin.x, 0), std::max(border_px - margin.y, 0));
-  const cv::Rect area(margin + cut, result_size - cv::Size(2 * cut.x, 2 * cut.y));
-  if (area.width <= 0 || area.height <= 0)
-  {
-    throw InputError("A border of " + std::to_string(border_px) + " px leaves nothing of a map of " +
-                     sizeText(result_size) + " pixels; choose a smaller one.");
-  }
-  return area;
-}
-
-float finiteSpan(const cv::Mat& truth)
-{
-  float low = std::numeric_limits<float>::infinity();
-  float high = -low;
-  for (int y = 0; y < truth.rows; ++y)
-  {
-    for (int x = 0; x < truth.cols; ++x)
-    {
-      const float value = truth.at<float>(y, x);
-      if (std::isfinite(value))
-      {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-    }
-  }
-  return high - low;
-}
-
-struct Errors
-{
-  std::vector<float> values;
-  std::size_t known = 0;
-};
-
-Errors collectErrors(const cv::Mat& result, const cv::Mat& truth, const cv::Mat& mask)
-{
-  const float worst = finiteSpan(truth);
-  Errors errors;
-  errors.values.reserve(truth.total());
-  for (int y = 0; y < truth.rows; ++y)
-  {
-    for (int x = 0; x < truth.cols; ++x)
-    {
-      const float expected = truth.at<float>(y, x);
-      if (!std::isfinite(expected) || (!mask.empty() && mask.at<std::uint8_t>(y, x) == 0))
-      {
-        continue;
-      }
-      const float value = result.at<float>(y, x);
-      errors.values.push_back(std::isfinite(value) ? std::abs(value - expected) : worst);
-      errors.known += std::isfinite(value) ? 1 : 0;
-    }
-  }
-  if (errors.values.empty())
-  {
-    throw InputError("The mask and the truth leave no pixel to score; check that they belong together.");
-  }
-  return errors;
-}
-
 double percentageAbove(const std::vector<float>& errors, float threshold_px)
 {
   const auto bad =
@@ -153,30 +57,20 @@ std::array<std::pair<const char*, double>, 6> namedFigures(const Evaluation& eva
 
 Evaluation evaluate(const cv::Mat& result, const cv::Mat& truth, const cv::Mat& mask, int border_px)
 {
-  checkSizes(result, truth, mask, border_px);
-  const cv::Rect area = scoredArea(result.size(), truth.size(), border_px);
-  const cv::Point margin((truth.cols - result.cols) / 2, (truth.rows - result.rows) / 2);
-  const Errors errors = collectErrors(result(area - margin), truth(area), mask.empty() ? mask : mask(area));
+  const ScoredPixels scored = scorePixels(result, truth, mask, border_px);
   Evaluation evaluation;
-  evaluation.mse_100 = 100.0 * meanSquare(errors.values);
-  evaluation.badpix_007 = percentageAbove(errors.values, 0.07F);
-  evaluation.badpix_003 = percentageAbove(errors.values, 0.03F);
-  evaluation.badpix_001 = percentageAbove(errors.values, 0.01F);
-  evaluation.q25 = 100.0 * quantile(errors.values, 0.25);
-  evaluation.coverage = static_cast<double>(errors.known) / static_cast<double>(errors.values.size());
+  evaluation.mse_100 = 100.0 * meanSquare(scored.errors);
+  evaluation.badpix_007 = percentageAbove(scored.errors, 0.07F);
+  evaluation.badpix_003 = percentageAbove(scored.errors, 0.03F);
+  evaluation.badpix_001 = percentageAbove(scored.errors, 0.01F);
+  evaluation.q25 = 100.0 * quantile(scored.errors, 0.25);
+  evaluation.coverage = static_cast<double>(scored.known) / static_cast<double>(scored.errors.size());
   return evaluation;
 }
 
 std::string toText(const Evaluation& evaluation)
 {
-  std::string text;
-  for (const auto& [name, value] : namedFigures(evaluation))
-  {
-    std::array<char, 64> figure{};
-    std::snprintf(figure.data(), figure.size(), "%s %.3f", name, value);
-    text += (text.empty() ? "" : "  ") + std::string(figure.data());
-  }
-  return text;
+  return figureText(namedFigures(evaluation));
 }
 
 std::string toJson(const Evaluation& evaluation)

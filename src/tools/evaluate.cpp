@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/io/evaluation.h"
 #include "light_field_depth/io/image_files.h"
 #include "light_field_depth/io/pfm.h"
+#include "light_field_depth/io/sparsification.h"
 #include "tool_main.h"
 
 namespace
@@ -28,31 +30,62 @@ cv::Mat readMask(const std::string& path)
   return mask != 0;
 }
 
+/// The command line as it was typed.
+struct Arguments
+{
+  std::string result;
+  std::string truth;
+  std::string confidence;
+  std::string mask;
+  int border_px = lfd::DEFAULT_EVALUATION_BORDER_PX;
+  bool json = false;
+};
+
+void evaluate(const Arguments& arguments)
+{
+  const cv::Mat result = lfd::readPfm(arguments.result);
+  const cv::Mat truth = lfd::readPfm(arguments.truth);
+  const cv::Mat mask = arguments.mask.empty() ? cv::Mat() : readMask(arguments.mask);
+  const lfd::Evaluation evaluation = lfd::evaluate(result, truth, mask, arguments.border_px);
+  std::string line = arguments.json ? toJson(evaluation) : toText(evaluation);
+  if (!arguments.confidence.empty())
+  {
+    const lfd::Sparsification sparsification =
+        lfd::sparsify(result, lfd::readPfm(arguments.confidence), truth, mask, arguments.border_px);
+    if (arguments.json)
+    {
+      auto figures = nlohmann::ordered_json::parse(line);
+      figures["sparsification"] = nlohmann::ordered_json::parse(toJson(sparsification));
+      line = figures.dump();
+    }
+    else
+    {
+      line += "  " + toText(sparsification);
+    }
+  }
+  std::cout << line << std::endl;
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  std::string result;
-  std::string truth;
-  std::string mask;
-  int border_px = lfd::DEFAULT_EVALUATION_BORDER_PX;
-  bool json = false;
+  Arguments arguments;
   CLI::App app(
       "Scores a disparity map against ground truth: mean square error x 100, percentages of bad pixels, "
       "25th percentile of the error x 100, part of the pixels that have a value.",
       "evaluate");
-  app.add_option("--result", result, "disparity map to score (PFM)")->required();
-  app.add_option("--truth", truth, "true disparity map (PFM)")->required();
-  app.add_option("--mask", mask, "image in the size of the truth; only pixels that are not black count");
-  app.add_option("--border", border_px,
-                 "pixels left out along each side of the truth (default " + std::to_string(border_px) + ")");
-  app.add_flag("--json", json, "print a JSON object");
-  return lfd::runTool(app, argc, argv,
-                      [&]
-                      {
-                        const lfd::Evaluation evaluation =
-                            lfd::evaluate(lfd::readPfm(result), lfd::readPfm(truth),
-                                          mask.empty() ? cv::Mat() : readMask(mask), border_px);
-                        std::cout << (json ? toJson(evaluation) : toText(evaluation)) << std::endl;
-                      });
+  app.add_option("--result", arguments.result, "disparity map to score (PFM)")->required();
+  app.add_option("--truth", arguments.truth, "true disparity map (PFM)")->required();
+  app.add_option("--confidence", arguments.confidence,
+                 "confidence map of the result (PFM): also how the error falls as the least confident pixels "
+                 "are dropped, as the area above the ideal curve (AUSE, parts of the whole error) and as the "
+                 "error without the least confident tenth");
+  app.add_option("--mask", arguments.mask,
+                 "image in the size of the truth; only pixels that are not black count");
+  app.add_option(
+      "--border", arguments.border_px,
+      "pixels left out along each side of the truth (default " + std::to_string(arguments.border_px) + ")");
+  app.add_flag("--json", arguments.json, "print a JSON object");
+  return lfd::runTool(app, argc, argv, [&] { evaluate(arguments); });
 }

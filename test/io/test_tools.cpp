@@ -296,6 +296,26 @@ TEST_F(EvaluateTool, HeedsTheMask)
   EXPECT_NEAR(nlohmann::json::parse(outcome.output)["coverage"].get<double>(), 24.0 / 25.0, 1e-9);
 }
 
+TEST_F(EvaluateTool, ShowsHowTheErrorFallsWithTheLeastConfidentPixels)
+{
+  cv::Mat confidence(result_.size(), CV_32FC1);
+  for (int y = 0; y < confidence.rows; ++y)
+  {
+    for (int x = 0; x < confidence.cols; ++x)
+    {
+      const float error = std::abs(result_.at<float>(y, x) - truth_.at<float>(y, x));
+      confidence.at<float>(y, x) = std::isfinite(error) ? 1.0F / (1.0F + error) : 0.0F;
+    }
+  }
+  writePfm(folder_ / "confidence.pfm", confidence);
+  const std::string more = "--confidence " + quoted((folder_ / "confidence.pfm").string());
+  const auto found = nlohmann::json::parse(evaluate("--json " + more).output)["sparsification"];
+  EXPECT_NEAR(found["ause_mse"].get<double>(), 0.0, 1e-9);
+  EXPECT_NEAR(found["ause_badpix_007"].get<double>(), 0.0, 1e-9);
+  EXPECT_EQ(found["mse_100_curve"], found["mse_100_ideal_curve"]);
+  EXPECT_NE(evaluate(more).output.find("  ause_mse 0.000  ause_badpix_007 0.000  "), std::string::npos);
+}
+
 TEST_F(EvaluateTool, SaysInOneSentenceWhatIsWrong)
 {
   std::filesystem::resize_file(folder_ / "result.pfm", 1000);
