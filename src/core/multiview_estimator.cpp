@@ -9,8 +9,10 @@
 
 #include "light_field_depth/core/disparity_range.h"
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/noise.h"
 #include "light_field_depth/core/multiview/solver.h"
+#include "light_field_depth/core/multiview/upsampling.h"
 #include "light_field_depth/core/multiview/view_maps.h"
 
 namespace light_field_depth
@@ -24,10 +26,14 @@ constexpr double REFERENCE_BASELINE = 4.0;
 /// With at most this many views in the row and column of the reference, all views are used.
 constexpr int FEW_VIEWS = 6;
 
-constexpr std::array<std::pair<MultiviewPreset, const char*>, 3> PRESET_NAMES = {{
+/// Smaller views are not halved.
+constexpr int LEAST_HALVED_SIDE_PX = 32;
+
+constexpr std::array<std::pair<MultiviewPreset, const char*>, 4> PRESET_NAMES = {{
     {MultiviewPreset::Quality, "quality"},
     {MultiviewPreset::Balanced, "balanced"},
     {MultiviewPreset::Realtime, "realtime"},
+    {MultiviewPreset::Fast, "fast"},
 }};
 
 LightField chosenViews(const LightField& light_field, ViewSelection selection)
@@ -74,6 +80,7 @@ int refinementsOf(const MultiviewOptions& options)
     case MultiviewPreset::Quality:
       return 4;
     case MultiviewPreset::Realtime:
+    case MultiviewPreset::Fast:
       return 1;
     case MultiviewPreset::Balanced:
       break;
@@ -85,7 +92,8 @@ SolverSettings solverSettings(const MultiviewOptions& options)
 {
   SolverSettings settings;
   settings.label_step_px = options.label_step_px;
-  settings.grey_search = options.preset == MultiviewPreset::Realtime;
+  settings.grey_search =
+      options.preset == MultiviewPreset::Realtime || options.preset == MultiviewPreset::Fast;
   settings.paths.small_step = options.small_change_penalty;
   settings.paths.large_step = options.large_change_penalty;
   settings.visibility_passes = options.visibility_passes;
@@ -111,7 +119,7 @@ MultiviewPreset multiviewPresetFromString(const std::string& name)
                                          [&](const auto& entry) { return name == entry.second; });
   if (found == PRESET_NAMES.end())
   {
-    throw InputError("There is no preset '" + name + "'; choose quality, balanced or realtime.");
+    throw InputError("There is no preset '" + name + "'; choose quality, balanced, realtime or fast.");
   }
   return found->first;
 }
@@ -146,6 +154,7 @@ std::vector<std::string> validate(const MultiviewOptions& options)
 struct MultiviewEstimator::Buffers
 {
   multiview::Solver solver;
+  multiview::HalfResolution half;
 };
 
 MultiviewEstimator::MultiviewEstimator(MultiviewOptions options)
@@ -159,13 +168,42 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
                                                RunContext& context)
 {
   const LightField chosen = toEightBit(chosenViews(light_field, request.views));
+  const bool halved = options_.preset == MultiviewPreset::Fast &&
+                      std::min(chosen.size().width, chosen.size().height) >= LEAST_HALVED_SIDE_PX;
   DisparityEstimate estimate;
+  if (halved)
+  {
+    solve(reduced(chosen, context), request, context, estimate);
+    upsample(chosen.reference().image, context, estimate);
+  }
+  else
+  {
+    solve(chosen, request, context, estimate);
+  }
+  estimate.views_used = chosen.views.size();
+  if (request.view_disparities)
+  {
+    const StageTimer timer(context, "view maps");
+    estimate.view_disparities =
+        multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool);
+  }
+  return estimate;
+}
+
+const LightField& MultiviewEstimator::reduced(const LightField& chosen, RunContext& context)
+{
+  const StageTimer timer(context, "halve");
+  return buffers_->half.reduce(chosen, context.pool);
+}
+
+void MultiviewEstimator::solve(const LightField& chosen, const EstimateRequest& request, RunContext& context,
+                               DisparityEstimate& estimate)
+{
   {
     const StageTimer timer(context, "range");
     estimate.range =
         request.disparity_range ? *request.disparity_range : findDisparityRange(chosen, context.pool);
   }
-  estimate.views_used = chosen.views.size();
   const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
   SolverSettings settings = solverSettings(options_);
   settings.range = {static_cast<float>(estimate.range.min * unit),
@@ -177,13 +215,17 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   buffers_->solver.run(scaledSteps(chosen, unit), settings, context);
   buffers_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
   estimate.confidence = buffers_->solver.confidence().clone();
-  if (request.view_disparities)
-  {
-    const StageTimer timer(context, "view maps");
-    estimate.view_disparities =
-        multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool);
-  }
-  return estimate;
+}
+
+void MultiviewEstimator::upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate)
+{
+  const StageTimer timer(context, "upsample");
+  cv::Mat disparity;
+  cv::Mat confidence;
+  multiview::upsample(estimate.disparity, estimate.confidence, image, {}, context.pool, disparity,
+                      confidence);
+  estimate.disparity = disparity;
+  estimate.confidence = confidence;
 }
 
 }  // namespace light_field_depth

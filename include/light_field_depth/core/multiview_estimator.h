@@ -14,10 +14,11 @@ enum class MultiviewPreset
 {
   Quality,   ///< colour everywhere, four refinements
   Balanced,  ///< colour everywhere, two refinements
-  Realtime   ///< brightness alone but at edges, one refinement
+  Realtime,  ///< brightness alone but at edges, one refinement
+  Fast       ///< as Realtime at half the resolution, brought to the full one along the edges of the image
 };
 
-/// "quality", "balanced", "realtime".
+/// "quality", "balanced", "realtime", "fast".
 std::string toString(MultiviewPreset preset);
 /// The inverse of toString(). @throw InputError that lists the names.
 MultiviewPreset multiviewPresetFromString(const std::string& name);
@@ -71,6 +72,11 @@ public:
 
 private:
   struct Buffers;
+  const LightField& reduced(const LightField& chosen, RunContext& context);
+  void solve(const LightField& chosen, const EstimateRequest& request, RunContext& context,
+             DisparityEstimate& estimate);
+  void upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate);
+
   MultiviewOptions options_;
   std::unique_ptr<Buffers> buffers_;
 };
