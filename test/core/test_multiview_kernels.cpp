@@ -265,57 +265,103 @@ TEST(MultiviewKernels, ColumnAggregationEqualsThePlainVersion)
   EXPECT_EQ(simd_best, plain_best);
 }
 
-TEST(MultiviewKernels, LinearizationEqualsThePlainVersion)
+/// Views in three directions with random pixels, sampled by both versions of the kernel.
+class LinearizationCase
 {
-  struct Case
-  {
-    float step_x;
-    float step_y;
-    float offset_x;
-    int channels;
-  };
-  const std::vector<Case> cases = {{3.0F, 0.0F, 0.0F, 3},
-                                   {0.0F, -2.0F, 0.0F, 3},
-                                   {1.5F, -1.0F, 0.3F, 3},
-                                   {-4.0F, 0.0F, 0.0F, 1},
-                                   {1.0F, 1.0F, 0.0F, 1}};
-  constexpr int height = 24;
-  for (const Case& test : cases)
+public:
+  static constexpr int HEIGHT = 24;
+  static constexpr std::size_t TILED_STRIDE = 2 * TILE_PIXELS;
+
+  explicit LinearizationCase(int channels) : channels_(static_cast<std::size_t>(channels))
   {
     Random random;
-    const int pixel_stride = test.channels == 3 ? 4 : 1;
-    const auto pixels = random.bytes(static_cast<std::size_t>((height + 1) * WIDTH * pixel_stride));
-    const auto reference = random.bytes(3 * STRIDE);
-    const auto disparity = random.floats(STRIDE, -3.0F, 3.0F);
-    LinearizeRow row;
-    row.pixels = pixels.data();
-    row.pixel_stride = pixel_stride;
-    row.row_stride = WIDTH * pixel_stride;
-    row.width = WIDTH;
-    row.height = height;
-    row.channels = test.channels;
-    row.reference = reference.data();
-    row.reference_stride = STRIDE;
-    row.disparity = disparity.data();
-    row.y = 3;
-    row.step_x = test.step_x;
-    row.step_y = test.step_y;
-    row.offset_x = test.offset_x;
-    row.position = 2.0F;
-    row.moment_stride = STRIDE;
-    std::vector<float> simd(MOMENTS * STRIDE, 1.0F);
-    auto plain = simd;
-    row.moments = simd.data();
-    linearizeRow(row);
-    row.moments = plain.data();
-    linearizeRowPlain(row);
-    for (std::size_t moment = 0; moment < MOMENTS; ++moment)
+    const int pixel_stride = channels == 3 ? 4 : 1;
+    const auto count = static_cast<std::size_t>((HEIGHT + 1) * WIDTH * pixel_stride);
+    reference_ = random.bytes(3 * STRIDE);
+    disparity_ = random.floats(TILED_STRIDE, -3.0F, 3.0F);
+    const std::vector<std::array<float, 3>> placements = {{3.0F, 0.0F, 0.0F},
+                                                          {-4.0F, 0.0F, 0.0F},
+                                                          {0.0F, -2.0F, 0.0F},
+                                                          {1.5F, -1.0F, 0.3F},
+                                                          {1.0F, 1.0F, 0.0F}};
+    for (const auto& [step_x, step_y, offset_x] : placements)
     {
-      for (std::size_t x = 0; x < WIDTH; ++x)
+      // Some views look like the reference, so that not all fall out of the mean.
+      auto pixels = random.bytes(count, 40);
+      pixels_.push_back(std::move(pixels));
+      SampledView view;
+      view.pixels = pixels_.back().data();
+      view.pixel_stride = pixel_stride;
+      view.row_stride = WIDTH * pixel_stride;
+      view.step_x = step_x;
+      view.step_y = step_y;
+      view.offset_x = offset_x;
+      view.position = step_x - step_y;
+      views_.push_back(view);
+    }
+  }
+
+  /// The mean, followed by the moments.
+  template <typename Kernel>
+  std::vector<float> run(const Kernel& kernel) const
+  {
+    const std::vector<Spoke> spokes = {{0, 2}, {2, 3}, {3, 5}};
+    std::vector<float> samples(views_.size() * channels_ * TILE_PIXELS);
+    std::vector<float> mean(channels_ * TILED_STRIDE);
+    std::vector<float> moments(spokes.size() * SPOKE_MOMENTS * TILED_STRIDE);
+    LinearizeTile tile;
+    tile.views = views_.data();
+    tile.view_count = static_cast<int>(views_.size());
+    tile.spokes = spokes.data();
+    tile.spoke_count = static_cast<int>(spokes.size());
+    tile.width = WIDTH;
+    tile.height = HEIGHT;
+    tile.channels = static_cast<int>(channels_);
+    tile.reference = reference_.data();
+    tile.reference_stride = STRIDE;
+    tile.disparity = disparity_.data();
+    tile.y = 3;
+    tile.match_scale = 90.0F;
+    tile.values = samples.data();
+    tile.refocused = mean.data();
+    tile.refocused_stride = TILED_STRIDE;
+    tile.moments = moments.data();
+    tile.stride = TILED_STRIDE;
+    for (tile.first = 0; tile.first < WIDTH; tile.first += TILE_PIXELS)
+    {
+      kernel(tile);
+    }
+    std::vector<float> result;
+    for (const auto* rows : {&mean, &moments})
+    {
+      for (std::size_t row = 0; row < rows->size(); row += TILED_STRIDE)
       {
-        ASSERT_EQ(simd[moment * STRIDE + x], plain[moment * STRIDE + x])
-            << "moment " << moment << " at " << x << ", step " << test.step_x << ", " << test.step_y;
+        const auto begin = rows->begin() + static_cast<std::ptrdiff_t>(row);
+        result.insert(result.end(), begin, begin + WIDTH);
       }
+    }
+    return result;
+  }
+
+private:
+  std::size_t channels_;
+  std::vector<std::uint8_t> reference_;
+  std::vector<float> disparity_;
+  std::vector<std::vector<std::uint8_t>> pixels_;
+  std::vector<SampledView> views_;
+};
+
+TEST(MultiviewKernels, LinearizationEqualsThePlainVersion)
+{
+  for (const int channels : {1, 3})
+  {
+    const LinearizationCase views(channels);
+    const auto simd = views.run(linearizeTile);
+    const auto plain = views.run(linearizeTilePlain);
+    ASSERT_EQ(simd.size(), plain.size());
+    for (std::size_t i = 0; i < simd.size(); ++i)
+    {
+      ASSERT_EQ(simd[i], plain[i]) << channels << " channels, row " << i / WIDTH << " at " << i % WIDTH;
     }
   }
 }

@@ -40,7 +40,7 @@ struct MultiviewOptions
   int small_change_penalty = 30;
   /// P2: cost of any larger change where the image has no edge. Raise it for large smooth objects, lower it
   /// for fine structures.
-  int large_change_penalty = 1000;
+  int large_change_penalty = 1200;
   /// Times that the views' occlusions are found from the map and the search repeated. More than one costs
   /// time and rarely helps.
   int visibility_passes = 1;
@@ -51,7 +51,7 @@ struct MultiviewOptions
   /// Let the brightness of a surface change linearly with the position of the view (gloss, soft light).
   bool brightness_slope = true;
   /// Smoothness of the refinement; raise it for smoother surfaces.
-  float refinement_smoothness = 900.0F;
+  float refinement_smoothness = 200.0F;
 };
 
 std::vector<std::string> validate(const MultiviewOptions& options);

@@ -4,6 +4,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "light_field_depth/core/multiview/cubic_taps.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 
@@ -14,9 +16,9 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 // A processor without any of the known vector instructions.
-void linearizeRowSimd(const LinearizeRow& row)
+void linearizeTileSimd(const LinearizeTile& tile)
 {
-  linearizeRowPlain(row);
+  linearizeTilePlain(tile);
 }
 #else
 namespace hn = hwy::HWY_NAMESPACE;
@@ -31,8 +33,7 @@ using IntegerVector = hn::Vec<Integers>;
 struct Axis
 {
   IntegerVector first;
-  FloatVector value0, value1, value2, value3;
-  FloatVector slope0, slope1, slope2, slope3;
+  FloatVector weight0, weight1, weight2, weight3;
 };
 
 HWY_INLINE Axis axisAt(FloatVector position)
@@ -44,32 +45,20 @@ HWY_INLINE Axis axisAt(FloatVector position)
   const auto t = hn::Sub(position, whole);
   const auto t_half = hn::Mul(t, c(0.5F));
   const auto t_three_halves = hn::Mul(t, c(1.5F));
-  const auto t_nine_halves = hn::Mul(t, c(4.5F));
   Axis axis;
   axis.first = hn::Sub(hn::ConvertTo(i, whole), hn::Set(i, 1));
-  axis.value0 = hn::Mul(hn::Sub(hn::Mul(hn::Sub(c(1.0F), t_half), t), c(0.5F)), t);
-  axis.value1 = hn::Add(hn::Mul(hn::Mul(hn::Sub(t_three_halves, c(2.5F)), t), t), c(1.0F));
-  axis.value2 = hn::Mul(hn::Add(hn::Mul(hn::Sub(c(2.0F), t_three_halves), t), c(0.5F)), t);
-  axis.value3 = hn::Mul(hn::Mul(hn::Sub(t_half, c(0.5F)), t), t);
-  axis.slope0 = hn::Sub(hn::Mul(hn::Sub(c(2.0F), t_three_halves), t), c(0.5F));
-  axis.slope1 = hn::Mul(hn::Sub(t_nine_halves, c(5.0F)), t);
-  axis.slope2 = hn::Add(hn::Mul(hn::Sub(c(4.0F), t_nine_halves), t), c(0.5F));
-  axis.slope3 = hn::Mul(hn::Sub(t_three_halves, c(1.0F)), t);
+  axis.weight0 = hn::Mul(hn::Sub(hn::Mul(hn::Sub(c(1.0F), t_half), t), c(0.5F)), t);
+  axis.weight1 = hn::Add(hn::Mul(hn::Mul(hn::Sub(t_three_halves, c(2.5F)), t), t), c(1.0F));
+  axis.weight2 = hn::Mul(hn::Add(hn::Mul(hn::Sub(c(2.0F), t_three_halves), t), c(0.5F)), t);
+  axis.weight3 = hn::Mul(hn::Mul(hn::Sub(t_half, c(0.5F)), t), t);
   return axis;
 }
 
-/// Value and slope of up to three channels.
-struct Sample
+/// Up to three channels.
+struct Colour
 {
-  FloatVector value0, value1, value2;
-  FloatVector slope0, slope1, slope2;
+  FloatVector c0, c1, c2;
 };
-
-HWY_INLINE Sample zeroSample()
-{
-  const auto zero = hn::Zero(Floats());
-  return {zero, zero, zero, zero, zero, zero};
-}
 
 template <int CHANNEL>
 HWY_INLINE FloatVector channelOf(IntegerVector pixel)
@@ -79,20 +68,32 @@ HWY_INLINE FloatVector channelOf(IntegerVector pixel)
 }
 
 template <int CHANNELS>
-HWY_INLINE void addTap(IntegerVector pixel, FloatVector value, FloatVector slope, Sample& sample)
+HWY_INLINE void addScaled(FloatVector weight, const Colour& colour, Colour& sum)
 {
-  const auto first = channelOf<0>(pixel);
-  sample.value0 = hn::Add(sample.value0, hn::Mul(value, first));
-  sample.slope0 = hn::Add(sample.slope0, hn::Mul(slope, first));
+  sum.c0 = hn::Add(sum.c0, hn::Mul(weight, colour.c0));
   if (CHANNELS == 3)
   {
-    const auto second = channelOf<1>(pixel);
-    const auto third = channelOf<2>(pixel);
-    sample.value1 = hn::Add(sample.value1, hn::Mul(value, second));
-    sample.slope1 = hn::Add(sample.slope1, hn::Mul(slope, second));
-    sample.value2 = hn::Add(sample.value2, hn::Mul(value, third));
-    sample.slope2 = hn::Add(sample.slope2, hn::Mul(slope, third));
+    sum.c1 = hn::Add(sum.c1, hn::Mul(weight, colour.c1));
+    sum.c2 = hn::Add(sum.c2, hn::Mul(weight, colour.c2));
   }
+}
+
+template <int CHANNELS>
+HWY_INLINE void addTap(IntegerVector pixel, FloatVector weight, Colour& sum)
+{
+  Colour colour{channelOf<0>(pixel), weight, weight};
+  if (CHANNELS == 3)
+  {
+    colour.c1 = channelOf<1>(pixel);
+    colour.c2 = channelOf<2>(pixel);
+  }
+  addScaled<CHANNELS>(weight, colour, sum);
+}
+
+HWY_INLINE Colour black()
+{
+  const auto zero = hn::Zero(Floats());
+  return {zero, zero, zero};
 }
 
 HWY_INLINE IntegerVector clampedIndex(IntegerVector index, int offset, int count)
@@ -102,156 +103,186 @@ HWY_INLINE IntegerVector clampedIndex(IntegerVector index, int offset, int count
 }
 
 template <int CHANNELS>
-HWY_INLINE Sample sampleLine(const LinearizeRow& row, const Axis& axis, int count, int stride,
+HWY_INLINE Colour sampleLine(const SampledView& view, const Axis& axis, int count, int stride,
                              IntegerVector offset)
 {
   const Integers i;
-  const auto* const pixels = reinterpret_cast<const std::int32_t*>(row.pixels);
+  const auto* const pixels = reinterpret_cast<const std::int32_t*>(view.pixels);
   const auto stride_vector = hn::Set(i, stride);
   const auto gather = [&](int tap) HWY_ATTR
   {
     const auto index = clampedIndex(axis.first, tap, count);
     return hn::GatherOffset(i, pixels, hn::Add(offset, hn::Mul(index, stride_vector)));
   };
-  Sample sample = zeroSample();
-  addTap<CHANNELS>(gather(0), axis.value0, axis.slope0, sample);
-  addTap<CHANNELS>(gather(1), axis.value1, axis.slope1, sample);
-  addTap<CHANNELS>(gather(2), axis.value2, axis.slope2, sample);
-  addTap<CHANNELS>(gather(3), axis.value3, axis.slope3, sample);
+  Colour sample = black();
+  addTap<CHANNELS>(gather(0), axis.weight0, sample);
+  addTap<CHANNELS>(gather(1), axis.weight1, sample);
+  addTap<CHANNELS>(gather(2), axis.weight2, sample);
+  addTap<CHANNELS>(gather(3), axis.weight3, sample);
   return sample;
 }
 
 template <int CHANNELS>
-HWY_INLINE Sample sampleAlong(const LinearizeRow& row, const Axis& axis, int count, int stride,
-                              IntegerVector offset, float step)
-{
-  Sample sample = sampleLine<CHANNELS>(row, axis, count, stride, offset);
-  const auto factor = hn::Set(Floats(), -step);
-  sample.slope0 = hn::Mul(sample.slope0, factor);
-  sample.slope1 = hn::Mul(sample.slope1, factor);
-  sample.slope2 = hn::Mul(sample.slope2, factor);
-  return sample;
-}
-
-/// sum + (value * slope_x * -step_x + slope * value_x * -step_y)
-HWY_INLINE FloatVector addSlope(const LinearizeRow& row, FloatVector sum, FloatVector down_value,
-                                FloatVector down_slope, FloatVector line_value, FloatVector line_slope)
-{
-  const Floats f;
-  const auto along_x = hn::Mul(hn::Mul(down_value, line_slope), hn::Set(f, -row.step_x));
-  const auto along_y = hn::Mul(hn::Mul(down_slope, line_value), hn::Set(f, -row.step_y));
-  return hn::Add(sum, hn::Add(along_x, along_y));
-}
-
-template <int CHANNELS>
-HWY_INLINE void addLine(const LinearizeRow& row, const Axis& across, const Axis& down, int tap,
-                        FloatVector value, FloatVector slope, Sample& sample)
+HWY_INLINE void addLine(const LinearizeTile& tile, const SampledView& view, const Axis& across,
+                        const Axis& down, int tap, FloatVector weight, Colour& sample)
 {
   const Integers i;
-  const auto offset = hn::Mul(clampedIndex(down.first, tap, row.height), hn::Set(i, row.row_stride));
-  const Sample line = sampleLine<CHANNELS>(row, across, row.width, row.pixel_stride, offset);
-  sample.value0 = hn::Add(sample.value0, hn::Mul(value, line.value0));
-  sample.slope0 = addSlope(row, sample.slope0, value, slope, line.value0, line.slope0);
-  if (CHANNELS == 3)
-  {
-    sample.value1 = hn::Add(sample.value1, hn::Mul(value, line.value1));
-    sample.slope1 = addSlope(row, sample.slope1, value, slope, line.value1, line.slope1);
-    sample.value2 = hn::Add(sample.value2, hn::Mul(value, line.value2));
-    sample.slope2 = addSlope(row, sample.slope2, value, slope, line.value2, line.slope2);
-  }
+  const auto offset = hn::Mul(clampedIndex(down.first, tap, tile.height), hn::Set(i, view.row_stride));
+  addScaled<CHANNELS>(weight, sampleLine<CHANNELS>(view, across, tile.width, view.pixel_stride, offset),
+                      sample);
 }
 
 template <int CHANNELS>
-HWY_INLINE Sample sampleView(const LinearizeRow& row, FloatVector x, FloatVector disparity)
+HWY_INLINE Colour sampleView(const LinearizeTile& tile, const SampledView& view, FloatVector x,
+                             FloatVector disparity)
 {
   const Floats f;
   const Integers i;
   const auto position = [&](FloatVector start, float offset, float step) HWY_ATTR
   { return hn::Add(start, hn::Sub(hn::Set(f, offset), hn::Mul(disparity, hn::Set(f, step)))); };
-  const auto at_x = position(x, row.offset_x, row.step_x);
-  const auto at_y = position(hn::Set(f, static_cast<float>(row.y)), row.offset_y, row.step_y);
-  if (row.step_y == 0.0F && row.offset_y == 0.0F)
+  const auto at_x = position(x, view.offset_x, view.step_x);
+  const auto at_y = position(hn::Set(f, static_cast<float>(tile.y)), view.offset_y, view.step_y);
+  if (view.step_y == 0.0F && view.offset_y == 0.0F)
   {
-    return sampleAlong<CHANNELS>(row, axisAt(at_x), row.width, row.pixel_stride,
-                                 hn::Set(i, row.y * row.row_stride), row.step_x);
+    return sampleLine<CHANNELS>(view, axisAt(at_x), tile.width, view.pixel_stride,
+                                hn::Set(i, tile.y * view.row_stride));
   }
-  if (row.step_x == 0.0F && row.offset_x == 0.0F)
+  if (view.step_x == 0.0F && view.offset_x == 0.0F)
   {
-    const auto column = hn::Mul(hn::ConvertTo(i, x), hn::Set(i, row.pixel_stride));
-    return sampleAlong<CHANNELS>(row, axisAt(at_y), row.height, row.row_stride, column, row.step_y);
+    const auto column = hn::Mul(hn::ConvertTo(i, x), hn::Set(i, view.pixel_stride));
+    return sampleLine<CHANNELS>(view, axisAt(at_y), tile.height, view.row_stride, column);
   }
   const Axis across = axisAt(at_x);
   const Axis down = axisAt(at_y);
-  Sample sample = zeroSample();
-  addLine<CHANNELS>(row, across, down, 0, down.value0, down.slope0, sample);
-  addLine<CHANNELS>(row, across, down, 1, down.value1, down.slope1, sample);
-  addLine<CHANNELS>(row, across, down, 2, down.value2, down.slope2, sample);
-  addLine<CHANNELS>(row, across, down, 3, down.value3, down.slope3, sample);
+  Colour sample = black();
+  addLine<CHANNELS>(tile, view, across, down, 0, down.weight0, sample);
+  addLine<CHANNELS>(tile, view, across, down, 1, down.weight1, sample);
+  addLine<CHANNELS>(tile, view, across, down, 2, down.weight2, sample);
+  addLine<CHANNELS>(tile, view, across, down, 3, down.weight3, sample);
   return sample;
 }
 
-HWY_INLINE void addTo(float* sum, FloatVector value)
+/// Sum of the absolute differences; a grey image counts three times.
+template <int CHANNELS>
+HWY_INLINE FloatVector mismatch(const Colour& a, const Colour& b)
 {
-  const Floats f;
-  hn::StoreU(hn::Add(hn::LoadU(f, sum), value), f, sum);
+  auto sum = hn::Abs(hn::Sub(a.c0, b.c0));
+  if (CHANNELS == 3)
+  {
+    sum = hn::Add(hn::Add(sum, hn::Abs(hn::Sub(a.c1, b.c1))), hn::Abs(hn::Sub(a.c2, b.c2)));
+    return sum;
+  }
+  return hn::Mul(sum, hn::Set(Floats(), 3.0F));
 }
 
 template <int CHANNELS>
-HWY_INLINE void linearizePixels(const LinearizeRow& row, int x)
+HWY_INLINE Colour referenceAt(const LinearizeTile& tile, int x)
 {
   const Floats f;
-  const Integers i;
   const hn::Rebind<std::uint8_t, Floats> bytes;
-  const std::size_t width = row.moment_stride;
-  const auto columns =
-      hn::Min(hn::Iota(f, static_cast<float>(x)), hn::Set(f, static_cast<float>(row.width - 1)));
-  const Sample sample = sampleView<CHANNELS>(row, columns, hn::LoadU(f, row.disparity + x));
-  const auto difference = [&](FloatVector value, std::size_t channel) HWY_ATTR
+  const auto channel = [&](std::size_t c) HWY_ATTR
   {
-    const auto pixels = hn::LoadU(bytes, row.reference + channel * row.reference_stride + x);
-    return hn::Sub(value, hn::ConvertTo(f, hn::PromoteTo(i, pixels)));
+    const auto pixels = hn::LoadU(bytes, tile.reference + c * tile.reference_stride + x);
+    return hn::ConvertTo(f, hn::PromoteTo(Integers(), pixels));
   };
-  const auto channel_weight = hn::Set(f, 3.0F / static_cast<float>(CHANNELS));
-  const auto zero = hn::Zero(f);
-  const auto r0 = difference(sample.value0, 0);
-  const auto r1 = CHANNELS == 3 ? difference(sample.value1, 1) : zero;
-  const auto r2 = CHANNELS == 3 ? difference(sample.value2, 2) : zero;
-  const auto sum = hn::Add(hn::Add(hn::Abs(r0), hn::Abs(r1)), hn::Abs(r2));
-  const auto residual = hn::Mul(sum, channel_weight);
-  const auto weight = hn::Div(channel_weight, hn::Add(residual, hn::Set(f, RESIDUAL_SOFTENING)));
-  const auto weight_k = hn::Mul(weight, hn::Set(f, row.position));
-  float* const moments = row.moments + x;
-  addTo(moments + MOMENT_RESIDUAL * width, residual);
-  addTo(moments + MOMENT_KK * width, hn::Mul(weight, hn::Set(f, row.position * row.position)));
-  auto gg = hn::Mul(sample.slope0, sample.slope0);
-  auto gr = hn::Mul(sample.slope0, r0);
-  addTo(moments + MOMENT_KG * width, hn::Mul(weight_k, sample.slope0));
-  addTo(moments + MOMENT_KR * width, hn::Mul(weight_k, r0));
-  if (CHANNELS == 3)
-  {
-    gg = hn::Add(hn::Add(gg, hn::Mul(sample.slope1, sample.slope1)), hn::Mul(sample.slope2, sample.slope2));
-    gr = hn::Add(hn::Add(gr, hn::Mul(sample.slope1, r1)), hn::Mul(sample.slope2, r2));
-    addTo(moments + (MOMENT_KG + 1) * width, hn::Mul(weight_k, sample.slope1));
-    addTo(moments + (MOMENT_KG + 2) * width, hn::Mul(weight_k, sample.slope2));
-    addTo(moments + (MOMENT_KR + 1) * width, hn::Mul(weight_k, r1));
-    addTo(moments + (MOMENT_KR + 2) * width, hn::Mul(weight_k, r2));
-  }
-  addTo(moments + MOMENT_GG * width, hn::Mul(weight, gg));
-  addTo(moments + MOMENT_GR * width, hn::Mul(weight, gr));
+  const auto first = channel(0);
+  return CHANNELS == 3 ? Colour{first, channel(1), channel(2)} : Colour{first, first, first};
 }
 
-void linearizeRowSimd(const LinearizeRow& row)
+template <int CHANNELS>
+HWY_INLINE void storeColour(const Colour& colour, std::size_t stride, float* values)
+{
+  const Floats f;
+  hn::StoreU(colour.c0, f, values);
+  if (CHANNELS == 3)
+  {
+    hn::StoreU(colour.c1, f, values + stride);
+    hn::StoreU(colour.c2, f, values + 2 * stride);
+  }
+}
+
+template <int CHANNELS>
+HWY_INLINE Colour loadColour(const float* values, std::size_t stride)
+{
+  const Floats f;
+  const auto first = hn::LoadU(f, values);
+  return CHANNELS == 3 ? Colour{first, hn::LoadU(f, values + stride), hn::LoadU(f, values + 2 * stride)}
+                       : Colour{first, first, first};
+}
+
+template <int CHANNELS>
+HWY_INLINE void sumSpoke(const LinearizeTile& tile, const Spoke& spoke, const Colour& reference,
+                         const Colour& mean, int in_tile, float* moments)
+{
+  const Floats f;
+  const auto channel_weight = hn::Set(f, 3.0F / static_cast<float>(CHANNELS));
+  auto residual = hn::Zero(f);
+  auto kk = hn::Zero(f);
+  Colour kr = black();
+  for (int view = spoke.first; view < spoke.last; ++view)
+  {
+    const Colour sample =
+        loadColour<CHANNELS>(tile.values + view * CHANNELS * TILE_PIXELS + in_tile, TILE_PIXELS);
+    const auto e = mismatch<CHANNELS>(sample, reference);
+    const auto k = hn::Set(f, tile.views[view].position);
+    const auto weight_k = hn::Mul(hn::Div(channel_weight, hn::Add(e, hn::Set(f, RESIDUAL_SOFTENING))), k);
+    residual = hn::Add(residual, e);
+    kk = hn::Add(kk, hn::Mul(weight_k, k));
+    const Colour difference{hn::Sub(sample.c0, mean.c0), hn::Sub(sample.c1, mean.c1),
+                            hn::Sub(sample.c2, mean.c2)};
+    addScaled<CHANNELS>(weight_k, difference, kr);
+  }
+  hn::StoreU(residual, f, moments + SPOKE_RESIDUAL * tile.stride);
+  hn::StoreU(kk, f, moments + SPOKE_KK * tile.stride);
+  storeColour<CHANNELS>(kr, tile.stride, moments + SPOKE_KR * tile.stride);
+}
+
+template <int CHANNELS>
+HWY_INLINE void linearizePixels(const LinearizeTile& tile, int x)
+{
+  const Floats f;
+  const auto columns =
+      hn::Min(hn::Iota(f, static_cast<float>(x)), hn::Set(f, static_cast<float>(tile.width - 1)));
+  const auto disparity = hn::LoadU(f, tile.disparity + x);
+  const auto scale = hn::Set(f, tile.match_scale * tile.match_scale);
+  const int in_tile = x - tile.first;
+  const Colour reference = referenceAt<CHANNELS>(tile, x);
+  Colour mean = reference;
+  auto total = hn::Set(f, 1.0F);
+  for (int view = 0; view < tile.view_count; ++view)
+  {
+    const Colour sample = sampleView<CHANNELS>(tile, tile.views[view], columns, disparity);
+    const auto e = mismatch<CHANNELS>(sample, reference);
+    const auto share = hn::Div(scale, hn::Add(hn::Mul(e, e), scale));
+    const auto weight = hn::Mul(share, share);
+    total = hn::Add(total, weight);
+    addScaled<CHANNELS>(weight, sample, mean);
+    storeColour<CHANNELS>(sample, TILE_PIXELS, tile.values + view * CHANNELS * TILE_PIXELS + in_tile);
+  }
+  mean.c0 = hn::Div(mean.c0, total);
+  mean.c1 = CHANNELS == 3 ? hn::Div(mean.c1, total) : mean.c0;
+  mean.c2 = CHANNELS == 3 ? hn::Div(mean.c2, total) : mean.c0;
+  storeColour<CHANNELS>(mean, tile.refocused_stride, tile.refocused + x);
+  for (int spoke = 0; spoke < tile.spoke_count; ++spoke)
+  {
+    sumSpoke<CHANNELS>(tile, tile.spokes[spoke], reference, mean, in_tile,
+                       tile.moments + static_cast<std::size_t>(spoke) * SPOKE_MOMENTS * tile.stride + x);
+  }
+}
+
+void linearizeTileSimd(const LinearizeTile& tile)
 {
   const int lanes = static_cast<int>(hn::Lanes(Floats()));
-  for (int x = 0; x < row.width; x += lanes)
+  const int last = std::min(tile.width, tile.first + TILE_PIXELS);
+  for (int x = tile.first; x < last; x += lanes)
   {
-    if (row.channels == 3)
+    if (tile.channels == 3)
     {
-      linearizePixels<3>(row, x);
+      linearizePixels<3>(tile, x);
     }
     else
     {
-      linearizePixels<1>(row, x);
+      linearizePixels<1>(tile, x);
     }
   }
 }
@@ -263,11 +294,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(linearizeRowSimd);
+HWY_EXPORT(linearizeTileSimd);
 
-void linearizeRow(const LinearizeRow& row)
+void linearizeTile(const LinearizeTile& tile)
 {
-  HWY_DYNAMIC_DISPATCH(linearizeRowSimd)(row);
+  HWY_DYNAMIC_DISPATCH(linearizeTileSimd)(tile);
 }
 
 }  // namespace light_field_depth::multiview

@@ -6,8 +6,8 @@ namespace light_field_depth::multiview
 /// Added to the residual of a view before its weight is taken, 1 / (residual + this).
 constexpr float RESIDUAL_SOFTENING = 2.0F;
 
-/// Catmull-Rom weights of the pixels -1, 0, 1, 2 at 0 <= t < 1, and their derivatives by t, in an order of
-/// operations that the vector kernels repeat.
+/// Catmull-Rom weights of the pixels -1, 0, 1, 2 at 0 <= t < 1, in an order of operations that the
+/// vector kernels repeat.
 inline float cubicValue0(float t)
 {
   return ((1.0F - t * 0.5F) * t - 0.5F) * t;
@@ -23,22 +23,6 @@ inline float cubicValue2(float t)
 inline float cubicValue3(float t)
 {
   return (t * 0.5F - 0.5F) * t * t;
-}
-inline float cubicSlope0(float t)
-{
-  return (2.0F - t * 1.5F) * t - 0.5F;
-}
-inline float cubicSlope1(float t)
-{
-  return (t * 4.5F - 5.0F) * t;
-}
-inline float cubicSlope2(float t)
-{
-  return (4.0F - t * 4.5F) * t + 0.5F;
-}
-inline float cubicSlope3(float t)
-{
-  return (t * 1.5F - 1.0F) * t;
 }
 
 }  // namespace light_field_depth::multiview

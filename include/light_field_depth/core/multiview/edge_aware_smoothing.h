@@ -12,9 +12,9 @@ namespace light_field_depth::multiview
 {
 struct SmoothingSettings
 {
-  float strength = 900.0F;         ///< alpha, against the curvature of the data
-  float image_edge_decay = 40.0F;  ///< kappa: links weaken by exp(-kappa * change of colour / 765)
-  float flat_px = 0.015F;          ///< eps: changes of the disparity above this are charged linearly
+  float strength = 200.0F;          ///< alpha, against the curvature of the data
+  float image_edge_decay = 100.0F;  ///< kappa: links weaken by exp(-kappa * change of colour / 765)
+  float flat_px = 0.015F;           ///< eps: changes of the disparity above this are charged linearly
   int reweightings = 2;
   int sweeps = 2;
 };

@@ -6,45 +6,64 @@
 
 namespace light_field_depth::multiview
 {
-/// What is summed over the views, a row of numbers each. g is the derivative of a
-/// view's brightness by the disparity, r its difference to the reference, k its position along its arm, and
-/// every product is weighted with 1 / (sum |r| + 2). KG and KR have one row a channel.
-constexpr std::size_t MOMENT_RESIDUAL = 0;  ///< sum |r|, without weight
-constexpr std::size_t MOMENT_GG = 1;
-constexpr std::size_t MOMENT_GR = 2;
-constexpr std::size_t MOMENT_KK = 3;
-constexpr std::size_t MOMENT_KG = 4;
-constexpr std::size_t MOMENT_KR = 7;
-constexpr std::size_t MOMENTS = 10;
+/// Pixels of a row that are worked on at a time, a multiple of every vector.
+constexpr int TILE_PIXELS = 128;
 
-/// One view at one row of the reference.
-struct LinearizeRow
+/// What is summed over the views of a spoke, a row of numbers each. r is the difference of a view to the
+/// refocused mean, k its position along the spoke, and every product is weighted with 1 / (e + 2), where e is
+/// the view's difference to the reference, sum of three channels. KR has one row a channel.
+constexpr std::size_t SPOKE_RESIDUAL = 0;  ///< sum e, without weight
+constexpr std::size_t SPOKE_KK = 1;
+constexpr std::size_t SPOKE_KR = 2;
+constexpr std::size_t SPOKE_MOMENTS = 5;
+
+/// A view to take samples of.
+struct SampledView
 {
-  const std::uint8_t* pixels = nullptr;  ///< of the view: channels and, for colour, an unused byte
+  const std::uint8_t* pixels = nullptr;  ///< channels and, for colour, an unused byte
   int pixel_stride = 4;                  ///< bytes from pixel to pixel; with 1, three bytes follow the last
   int row_stride = 0;                    ///< bytes from row to row
-  int width = 0;
-  int height = 0;
-  int channels = 3;
-  const std::uint8_t* reference = nullptr;  ///< pixel 0 of the reference's row, channels one plane apart
-  std::size_t reference_stride = 0;
-  const float* disparity = nullptr;  ///< [width], readable up to moment_stride
-  int y = 0;
   float step_x = 0.0F;  ///< pixel (x, y) is seen at x + offset_x - disparity * step_x, likewise y
   float step_y = 0.0F;
   float offset_x = 0.0F;
   float offset_y = 0.0F;
-  float position = 0.0F;     ///< k
-  float* moments = nullptr;  ///< [MOMENTS][moment_stride], added to; what lies past the width is undefined
-  std::size_t moment_stride = 0;  ///< at least the width, a multiple of MOMENT_MULTIPLE
+  float position = 0.0F;  ///< k
 };
 
-constexpr int MOMENT_MULTIPLE = 16;
+/// Views that stand on one ray from the reference, as a range of views.
+struct Spoke
+{
+  int first = 0;
+  int last = 0;  ///< one past the last
+};
 
-/// Samples the view where it sees the reference's row and adds its moments. The plain version computes the
-/// same values bit for bit.
-void linearizeRow(const LinearizeRow& row);
-void linearizeRowPlain(const LinearizeRow& row);
+/// Up to TILE_PIXELS pixels of one row of the reference with all views.
+struct LinearizeTile
+{
+  const SampledView* views = nullptr;
+  int view_count = 0;
+  const Spoke* spokes = nullptr;  ///< together all views, in their order
+  int spoke_count = 0;
+  int width = 0;  ///< of every view
+  int height = 0;
+  int channels = 3;
+  const std::uint8_t* reference = nullptr;  ///< pixel 0 of the reference's row, channels one plane apart
+  std::size_t reference_stride = 0;
+  const float* disparity = nullptr;  ///< of the reference's row, readable up to `stride`
+  int first = 0;                     ///< pixels first .. first + TILE_PIXELS - 1 of the row y
+  int y = 0;
+  float match_scale = 12.0F;   ///< differences to the reference above this lose their share of the mean
+  float* values = nullptr;     ///< scratch, [view_count][channels][TILE_PIXELS]
+  float* refocused = nullptr;  ///< [channels][refocused_stride], of the row: mean of the views that agree
+  std::size_t refocused_stride = 0;
+  float* moments = nullptr;  ///< [spoke_count][SPOKE_MOMENTS][stride], of the row
+  std::size_t stride = 0;    ///< at least the width, a multiple of TILE_PIXELS; the end is undefined
+};
+
+/// Samples every view where it sees the reference's pixels, averages the views that agree with the reference,
+/// and sums the moments of each spoke. The plain version computes the same values bit for bit.
+void linearizeTile(const LinearizeTile& tile);
+void linearizeTilePlain(const LinearizeTile& tile);
 
 }  // namespace light_field_depth::multiview
 

@@ -18,8 +18,8 @@ namespace light_field_depth::multiview
 struct PathSettings
 {
   int small_step = 30;            ///< P1, for a change by one label
-  int large_step = 1000;          ///< P2 for larger changes where the image does not change at all
-  float large_step_floor = 1.5F;  ///< P2 never falls below this many P1
+  int large_step = 1200;          ///< P2 for larger changes where the image does not change at all
+  float large_step_floor = 0.5F;  ///< P2 never falls below this many P1
 };
 
 /// Adds up the costs along the paths from the left, right, top and bottom, and takes the best label.

@@ -30,10 +30,14 @@ struct LinearizationSettings
   float max_weight = 400.0F;     ///< of one pixel, so that strong texture does not outvote all smoothness
   bool brightness_slope = true;  ///< allow brightness that changes linearly with the position of the view
   int window_radius = 2;         ///< pixels that share one step
+  /// Grey levels, sum of three channels: views that differ more from the reference drop out of the mean.
+  float match_scale = 12.0F;
 };
 
-/// Linearises the difference of every view to the reference about the present disparity. Views of one arm
-/// that fit badly lose their weight. Keeps its scratch memory; one call at a time.
+/// Linearises the difference of every view to the refocused mean (the reference averaged with the views that
+/// agree with it where the present disparity says that they see the same point) about that disparity. The
+/// mean has a fraction of a single view's noise, and its gradient stands for that of all views. Views of one
+/// arm that fit badly lose their weight. Keeps its scratch memory; one call at a time.
 class Linearizer
 {
 public:
