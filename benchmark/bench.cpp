@@ -1,5 +1,6 @@
 // Time and accuracy of the package, each measurement with one command.
 
+#include <array>
 #include <exception>
 #include <iostream>
 
@@ -7,6 +8,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "ablation.h"
+#include "kernel_benchmark.h"
 #include "light_fields.h"
 #include "report_files.h"
 
@@ -14,14 +16,28 @@ namespace light_field_depth::benchmark
 {
 namespace
 {
-int run(int argc, char** argv)
+struct Measurement
 {
-  CLI::App app{
-      "Time and accuracy of whole light fields beside OpenCV's own methods, unless another "
-      "measurement is named."};
-  Settings settings;
-  bool ablation = false;
-  app.add_flag("--ablation", ablation, "each ingredient of multiview off or changed, one at a time");
+  const char* flag;
+  const char* description;
+  void (*run)(const Settings&);
+};
+
+/// The first one is taken when none is named.
+constexpr std::array<Measurement, 3> MEASUREMENTS = {{
+    {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
+     compareMethods},
+    {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
+    {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
+}};
+
+void declare(CLI::App& app, Settings& settings)
+{
+  for (const Measurement& measurement : MEASUREMENTS)
+  {
+    app.add_flag(measurement.flag, measurement.description);
+  }
+  app.add_flag("--all", "all measurements, one after the other");
   app.add_option("--input", settings.inputs, "folders with a light field and its true disparity")->required();
   app.add_option("--runs", settings.runs, "timed runs of each row")
       ->capture_default_str()
@@ -30,16 +46,28 @@ int run(int argc, char** argv)
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
   app.add_option("--results", settings.results, "folder for the tables and JSON files")->take_last();
+}
+
+int run(int argc, char** argv)
+{
+  CLI::App app{"Time and accuracy of this package; prints tables in Markdown."};
+  Settings settings;
+  declare(app, settings);
   CLI11_PARSE(app, argc, argv);
 
   cv::setNumThreads(settings.threads);
-  if (ablation)
+  bool named = false;
+  for (const Measurement& measurement : MEASUREMENTS)
   {
-    ablate(settings);
+    if (app.count("--all") > 0 || app.count(measurement.flag) > 0)
+    {
+      measurement.run(settings);
+      named = true;
+    }
   }
-  else
+  if (!named)
   {
-    compareMethods(settings);
+    MEASUREMENTS.front().run(settings);
   }
   return 0;
 }

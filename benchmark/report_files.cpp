@@ -57,7 +57,7 @@ std::string toMarkdown(const Table& table)
   {
     appendRow(row, text);
   }
-  return text;
+  return table.note.empty() ? text : text + "\n" + table.note + "\n";
 }
 
 std::string fixed(double value, int decimals)

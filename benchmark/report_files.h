@@ -17,11 +17,12 @@ struct Settings
   int threads = 2;
 };
 
-/// A table in Markdown.
+/// A table, and what is to be said below it.
 struct Table
 {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
+  std::string note;
 };
 
 std::string toMarkdown(const Table& table);

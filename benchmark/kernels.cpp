@@ -1,0 +1,258 @@
+#include "kernels.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <random>
+
+#include "light_field_depth/core/multiview/cost_kernels.h"
+#include "light_field_depth/core/multiview/linearize_kernels.h"
+#include "light_field_depth/core/multiview/path_kernels.h"
+#include "light_field_depth/core/multiview/sample_rows.h"
+
+namespace light_field_depth::benchmark
+{
+namespace
+{
+using namespace multiview;
+
+constexpr int WIDTH = 512;
+constexpr std::size_t PIXELS = WIDTH;
+constexpr std::size_t STRIDE = WIDTH + 2 * VECTOR_OVERRUN;  // between the channels of a row
+constexpr std::size_t CHANNELS = 3;
+constexpr std::size_t VIEWS = 16;
+constexpr int LABELS = 32;
+constexpr std::size_t ENTRIES = PIXELS * LABELS;
+constexpr std::size_t STATE_STRIDE = LABELS + 2 * STATE_GUARD;
+
+std::vector<std::uint8_t> randomBytes(std::size_t count, int limit)
+{
+  std::mt19937 engine(static_cast<std::uint32_t>(count));
+  std::uniform_int_distribution<int> distribution(0, limit);
+  std::vector<std::uint8_t> values(count);
+  for (auto& value : values)
+  {
+    value = static_cast<std::uint8_t>(distribution(engine));
+  }
+  return values;
+}
+
+/// One call of a kernel on data that the call keeps alive.
+template <class Data, class Call>
+std::function<void()> calling(std::shared_ptr<Data> data, const Call& call)
+{
+  return [data = std::move(data), call] { call(*data); };
+}
+
+/// Rows of the reference and of four arms of four views.
+struct ViewRows
+{
+  std::vector<std::uint8_t> reference = randomBytes(CHANNELS * STRIDE, 60);
+  std::vector<std::uint8_t> samples = randomBytes(VIEWS * CHANNELS * STRIDE, 60);
+  std::vector<std::uint8_t> surfaces = randomBytes(VIEWS * STRIDE, 60);
+  std::vector<std::uint8_t> cost = std::vector<std::uint8_t>(STRIDE);
+  std::array<Arm, 4> arms = {{{0, 4, 0}, {4, 8, 2}, {8, 12, 4}, {12, 16, 6}}};
+  std::array<std::uint16_t, 4> arm_scales{};
+  std::array<const std::uint8_t*, VIEWS> sample_rows{};
+  std::array<const std::uint8_t*, VIEWS> surface_rows{};
+  ArmCostRow arm_cost;
+  VisibleCostRow visible_cost;
+
+  ViewRows()
+  {
+    constexpr int fixed_point = 256;
+    arm_scales.fill(static_cast<std::uint16_t>(FULL_COST * fixed_point / (4 * arm_cost.truncation)));
+    for (std::size_t view = 0; view < VIEWS; ++view)
+    {
+      sample_rows[view] = &samples[view * CHANNELS * STRIDE];
+      surface_rows[view] = &surfaces[view * STRIDE];
+    }
+    arm_cost.reference = visible_cost.reference = reference.data();
+    arm_cost.reference_stride = visible_cost.reference_stride = STRIDE;
+    arm_cost.samples = visible_cost.samples = sample_rows.data();
+    arm_cost.sample_stride = visible_cost.sample_stride = STRIDE;
+    arm_cost.width = visible_cost.width = WIDTH;
+    arm_cost.arms = arms.data();
+    arm_cost.arm_count = static_cast<int>(arms.size());
+    arm_cost.best_arms = 2;
+    arm_cost.arm_scales = arm_scales.data();
+    visible_cost.surfaces = surface_rows.data();
+    visible_cost.views = static_cast<int>(VIEWS);
+    visible_cost.hidden_above = 40;
+    visible_cost.unseen_penalty = 30;
+  }
+};
+
+Kernel interpolation()
+{
+  const auto rows = std::make_shared<ViewRows>();
+  const auto with = [&](auto kernel)
+  {
+    return calling(
+        rows,
+        [kernel](ViewRows& data)
+        {
+          const std::uint8_t* const first = data.reference.data();
+          kernel({first, first + 1, first + 2, first + 3}, SUBPIXEL_PHASES / 4, WIDTH, data.cost.data());
+        });
+  };
+  return {"sub-pixel row", "pixel", PIXELS, 2.0 * PIXELS, with(interpolateTaps), with(interpolateTapsPlain)};
+}
+
+Kernel armCost()
+{
+  const auto rows = std::make_shared<ViewRows>();
+  const auto with = [&](auto kernel)
+  { return calling(rows, [kernel](ViewRows& data) { kernel(data.arm_cost, data.cost.data()); }); };
+  return {"cost of the best arms", "pixel x view",
+          PIXELS * VIEWS,          PIXELS * (CHANNELS * (VIEWS + 1) + 1.0),
+          with(armCostRow),        with(armCostRowPlain)};
+}
+
+Kernel visibleCost()
+{
+  const auto rows = std::make_shared<ViewRows>();
+  const auto with = [&](auto kernel)
+  { return calling(rows, [kernel](ViewRows& data) { kernel(data.visible_cost, data.cost.data()); }); };
+  return {"cost of the seeing views",
+          "pixel x view",
+          PIXELS * VIEWS,
+          PIXELS * (CHANNELS * (VIEWS + 1) + VIEWS + 1.0),
+          with(visibleCostRow),
+          with(visibleCostRowPlain)};
+}
+
+Kernel transposition()
+{
+  struct Costs
+  {
+    std::vector<std::uint8_t> cost = randomBytes(LABELS * STRIDE, FULL_COST);
+    std::vector<std::uint8_t> volume = std::vector<std::uint8_t>(ENTRIES);
+  };
+  const auto costs = std::make_shared<Costs>();
+  const auto with = [&](auto kernel)
+  {
+    return calling(costs, [kernel](Costs& data)
+                   { kernel(data.cost.data(), STRIDE, LABELS, WIDTH, data.volume.data()); });
+  };
+  return {"labels together",        "entry", ENTRIES, 2.0 * ENTRIES, with(transposeCosts),
+          with(transposeCostsPlain)};
+}
+
+/// One row of a cost volume, and the states of the vertical paths.
+struct PathData
+{
+  std::vector<std::uint8_t> cost = randomBytes(ENTRIES, FULL_COST);
+  std::vector<std::uint16_t> sums = std::vector<std::uint16_t>(ENTRIES);
+  std::vector<std::uint16_t> p2 = std::vector<std::uint16_t>(PIXELS, 500);
+  std::vector<std::uint16_t> before = std::vector<std::uint16_t>(PIXELS * STATE_STRIDE, STATE_GUARD_VALUE);
+  std::vector<std::uint16_t> after = before;
+  std::vector<std::uint16_t> minima = std::vector<std::uint16_t>(PIXELS);
+  std::vector<float> best = std::vector<float>(PIXELS);
+  PathRow row;
+
+  PathData()
+  {
+    row.cost = cost.data();
+    row.sums = sums.data();
+    row.width = WIDTH;
+    row.pitch = LABELS;
+    row.p1 = 30;
+    row.p2 = p2.data();
+    aggregateRow(row, before.data());
+    aggregateStep(row, true, nullptr, before.data(), minima.data());
+  }
+};
+
+Kernel rowPaths()
+{
+  const auto paths = std::make_shared<PathData>();
+  const auto with = [&](auto kernel)
+  { return calling(paths, [kernel](PathData& data) { kernel(data.row, data.after.data()); }); };
+  // Cost read by both paths; sums written by one and read and written by the other.
+  return {"paths along a row", "entry x path",     2.0 * ENTRIES,
+          8.0 * ENTRIES,       with(aggregateRow), with(aggregateRowPlain)};
+}
+
+Kernel columnPaths()
+{
+  const auto paths = std::make_shared<PathData>();
+  const auto with = [&](auto kernel)
+  {
+    return calling(paths, [kernel](PathData& data)
+                   { kernel(data.row, false, data.before.data(), data.after.data(), data.minima.data()); });
+  };
+  // Cost, sums read and written, states read and written.
+  return {"step of the column paths", "entry x path",          ENTRIES, 9.0 * ENTRIES,
+          with(aggregateStep),        with(aggregateStepPlain)};
+}
+
+Kernel labelSelection()
+{
+  const auto paths = std::make_shared<PathData>();
+  const auto with = [&](auto kernel)
+  {
+    return calling(paths, [kernel](PathData& data)
+                   { kernel(data.sums.data(), WIDTH, LABELS - 3, LABELS, data.best.data()); });
+  };
+  return {"best label", "entry", ENTRIES, 2.0 * ENTRIES, with(selectLabels), with(selectLabelsPlain)};
+}
+
+/// A view and the moments of one row. @param along_row whether the view stands beside the reference or below
+struct LinearizeData
+{
+  static constexpr int HEIGHT = 16;
+  static constexpr int PIXEL_STRIDE = 4;
+
+  std::vector<std::uint8_t> pixels = randomBytes((HEIGHT + 1) * PIXELS * PIXEL_STRIDE, 255);
+  std::vector<std::uint8_t> reference = randomBytes(CHANNELS * STRIDE, 255);
+  std::vector<float> disparity = std::vector<float>(STRIDE);
+  std::vector<float> moments = std::vector<float>(MOMENTS * STRIDE);
+  LinearizeRow row;
+
+  explicit LinearizeData(bool along_row)
+  {
+    for (std::size_t x = 0; x < PIXELS; ++x)
+    {
+      disparity[x] = static_cast<float>(x % 100) / 100.0F;
+    }
+    row.pixels = pixels.data();
+    row.row_stride = WIDTH * PIXEL_STRIDE;
+    row.width = WIDTH;
+    row.height = HEIGHT;
+    row.reference = reference.data();
+    row.reference_stride = STRIDE;
+    row.disparity = disparity.data();
+    row.y = HEIGHT / 2;
+    (along_row ? row.step_x : row.step_y) = 2.0F;
+    row.position = 2.0F;
+    row.moments = moments.data();
+    row.moment_stride = STRIDE;
+  }
+};
+
+Kernel linearization(bool along_row)
+{
+  const auto data = std::make_shared<LinearizeData>(along_row);
+  const auto with = [&](auto kernel)
+  { return calling(data, [kernel](LinearizeData& held) { kernel(held.row); }); };
+  constexpr double taps = 4.0;
+  constexpr double bytes_per_pixel =
+      taps * LinearizeData::PIXEL_STRIDE + CHANNELS + sizeof(float) * (1.0 + 2.0 * MOMENTS);
+  return {along_row ? "linearize a view beside" : "linearize a view below",
+          "pixel",
+          PIXELS,
+          bytes_per_pixel * PIXELS,
+          with(linearizeRow),
+          with(linearizeRowPlain)};
+}
+
+}  // namespace
+
+std::vector<Kernel> kernels()
+{
+  return {interpolation(), armCost(),        visibleCost(),       transposition(),     rowPaths(),
+          columnPaths(),   labelSelection(), linearization(true), linearization(false)};
+}
+
+}  // namespace light_field_depth::benchmark
