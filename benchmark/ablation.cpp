@@ -22,8 +22,8 @@ const std::vector<Variant>& variants()
       {"one refinement", {"multiview_refinements=1"}},
       {"four refinements", {"multiview_refinements=4"}},
       {"no brightness slope in the refinement", {"multiview_brightness_slope=false"}},
-      {"refinement half as smooth", {"multiview_refinement_smoothness=450"}},
-      {"refinement twice as smooth", {"multiview_refinement_smoothness=1800"}},
+      {"refinement half as smooth", {"multiview_refinement_smoothness=100"}},
+      {"refinement twice as smooth", {"multiview_refinement_smoothness=400"}},
       {"labels 1/4 px apart", {"multiview_label_step_px=0.25"}},
       {"labels 1/16 px apart", {"multiview_label_step_px=0.0625"}},
       {"P1 20", {"multiview_small_change_penalty=20"}},
@@ -33,6 +33,7 @@ const std::vector<Variant>& variants()
       {"the row of views alone", {"views=row"}},
       {"cross and diagonals", {"views=star"}},
       {"grey search, one refinement (`realtime`)", {"multiview_preset=realtime"}},
+      {"half resolution in grey (`fast`)", {"multiview_preset=fast"}},
       {"colour, four refinements (`quality`)", {"multiview_preset=quality"}},
   };
   return all;

@@ -198,61 +198,76 @@ Kernel labelSelection()
   return {"best label", "entry", ENTRIES, 2.0 * ENTRIES, with(selectLabels), with(selectLabelsPlain)};
 }
 
-/// A view and the moments of one row. @param along_row whether the view stands beside the reference or below
+/// One tile of a row, with views on a cross.
 struct LinearizeData
 {
-  static constexpr int HEIGHT = 16;
-  static constexpr int PIXEL_STRIDE = 4;
+  static constexpr int HEIGHT = 32;
+  static constexpr std::size_t PIXEL_STRIDE = 4;
+  static constexpr std::size_t VIEW_BYTES = (HEIGHT + 1) * PIXELS * PIXEL_STRIDE;
+  static constexpr std::size_t SPOKES = 4;
 
-  std::vector<std::uint8_t> pixels = randomBytes((HEIGHT + 1) * PIXELS * PIXEL_STRIDE, 255);
-  std::vector<std::uint8_t> reference = randomBytes(CHANNELS * STRIDE, 255);
+  std::vector<std::uint8_t> pixels = randomBytes(VIEWS * VIEW_BYTES, 60);
+  std::vector<std::uint8_t> reference = randomBytes(CHANNELS * STRIDE, 60);
   std::vector<float> disparity = std::vector<float>(STRIDE);
-  std::vector<float> moments = std::vector<float>(MOMENTS * STRIDE);
-  LinearizeRow row;
+  std::vector<float> values = std::vector<float>(VIEWS * CHANNELS * TILE_PIXELS);
+  std::vector<float> refocused = std::vector<float>(CHANNELS * STRIDE);
+  std::vector<float> moments = std::vector<float>(SPOKES * SPOKE_MOMENTS * STRIDE);
+  std::array<SampledView, VIEWS> views{};
+  std::array<Spoke, SPOKES> spokes = {{{0, 4}, {4, 8}, {8, 12}, {12, 16}}};
+  LinearizeTile tile;
 
-  explicit LinearizeData(bool along_row)
+  LinearizeData()
   {
     for (std::size_t x = 0; x < PIXELS; ++x)
     {
       disparity[x] = static_cast<float>(x % 100) / 100.0F;
     }
-    row.pixels = pixels.data();
-    row.row_stride = WIDTH * PIXEL_STRIDE;
-    row.width = WIDTH;
-    row.height = HEIGHT;
-    row.reference = reference.data();
-    row.reference_stride = STRIDE;
-    row.disparity = disparity.data();
-    row.y = HEIGHT / 2;
-    (along_row ? row.step_x : row.step_y) = 2.0F;
-    row.position = 2.0F;
-    row.moments = moments.data();
-    row.moment_stride = STRIDE;
+    for (std::size_t i = 0; i < VIEWS; ++i)
+    {
+      const auto distance = static_cast<float>(i % 4 + 1);
+      views[i].pixels = &pixels[i * VIEW_BYTES];
+      views[i].row_stride = WIDTH * static_cast<int>(PIXEL_STRIDE);
+      views[i].position = i < VIEWS / 2 ? distance : -distance;
+      (i / 4 % 2 == 0 ? views[i].step_x : views[i].step_y) = views[i].position;
+    }
+    tile.views = views.data();
+    tile.view_count = static_cast<int>(VIEWS);
+    tile.spokes = spokes.data();
+    tile.spoke_count = static_cast<int>(SPOKES);
+    tile.width = WIDTH;
+    tile.height = HEIGHT;
+    tile.reference = reference.data();
+    tile.reference_stride = STRIDE;
+    tile.disparity = disparity.data();
+    tile.first = TILE_PIXELS;
+    tile.y = HEIGHT / 2;
+    tile.values = values.data();
+    tile.refocused = refocused.data();
+    tile.refocused_stride = STRIDE;
+    tile.moments = moments.data();
+    tile.stride = STRIDE;
   }
 };
 
-Kernel linearization(bool along_row)
+Kernel linearization()
 {
-  const auto data = std::make_shared<LinearizeData>(along_row);
+  const auto data = std::make_shared<LinearizeData>();
   const auto with = [&](auto kernel)
-  { return calling(data, [kernel](LinearizeData& held) { kernel(held.row); }); };
+  { return calling(data, [kernel](LinearizeData& held) { kernel(held.tile); }); };
   constexpr double taps = 4.0;
-  constexpr double bytes_per_pixel =
-      taps * LinearizeData::PIXEL_STRIDE + CHANNELS + sizeof(float) * (1.0 + 2.0 * MOMENTS);
-  return {along_row ? "linearize a view beside" : "linearize a view below",
-          "pixel",
-          PIXELS,
-          bytes_per_pixel * PIXELS,
-          with(linearizeRow),
-          with(linearizeRowPlain)};
+  constexpr double bytes_per_view = taps * LinearizeData::PIXEL_STRIDE + 3.0 * CHANNELS * sizeof(float);
+  constexpr double bytes_per_pixel = VIEWS * bytes_per_view + CHANNELS +
+                                     sizeof(float) * (1.0 + CHANNELS + LinearizeData::SPOKES * SPOKE_MOMENTS);
+  return {"linearize all views",         "pixel x view",      TILE_PIXELS * static_cast<double>(VIEWS),
+          bytes_per_pixel * TILE_PIXELS, with(linearizeTile), with(linearizeTilePlain)};
 }
 
 }  // namespace
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(), armCost(),        visibleCost(),       transposition(),     rowPaths(),
-          columnPaths(),   labelSelection(), linearization(true), linearization(false)};
+  return {interpolation(), armCost(),     visibleCost(),    transposition(),
+          rowPaths(),      columnPaths(), labelSelection(), linearization()};
 }
 
 }  // namespace light_field_depth::benchmark

@@ -17,9 +17,8 @@ namespace
 const std::vector<Variant>& ownMethods()
 {
   static const std::vector<Variant> methods = {
-      {"quality", {"multiview_preset=quality"}},
-      {"balanced", {"multiview_preset=balanced"}},
-      {"realtime", {"multiview_preset=realtime"}},
+      {"quality", {"multiview_preset=quality"}},   {"balanced", {"multiview_preset=balanced"}},
+      {"realtime", {"multiview_preset=realtime"}}, {"fast", {"multiview_preset=fast"}},
       {"paper2017", {"method=paper2017"}},
   };
   return methods;
