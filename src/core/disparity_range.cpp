@@ -13,6 +13,7 @@
 #include "label_support.h"
 #include "light_field_depth/core/noise_estimate.h"
 #include "plane_sweep.h"
+#include "sweep_views.h"
 
 namespace light_field_depth
 {
@@ -29,79 +30,6 @@ constexpr float SMALL_OBJECT_LABELS = 2.0F;
 constexpr float SMALL_OBJECT_FRACTION = 0.25F;
 /// The third sweep looks this many labels beyond what the second found, which could not resolve more.
 constexpr float MARGIN_LABELS = 1.5F;
-
-/// Views in one of the four directions from the reference, nearest first.
-using Arm = std::vector<const View*>;
-
-double distanceOf(const View& view)
-{
-  return std::hypot(view.steps.x, view.steps.y);
-}
-
-/// The nearest, the farthest and one half-way between them.
-Arm thinOut(Arm arm)
-{
-  std::stable_sort(arm.begin(), arm.end(),
-                   [](const View* a, const View* b) { return distanceOf(*a) < distanceOf(*b); });
-  return arm.size() <= 3 ? arm : Arm{arm.front(), arm[arm.size() / 2], arm.back()};
-}
-
-/// Right, left, below, above. Views on the row and the column of the reference come first; where there is
-/// none of these, all others are sorted into the direction that they are nearest to.
-std::vector<Arm> armsOf(const LightField& light_field)
-{
-  constexpr double ON_AXIS = 0.05;
-  for (const bool on_axis_only : {true, false})
-  {
-    std::array<Arm, 4> arms;
-    for (const View& view : light_field.views)
-    {
-      const double along = std::max(std::abs(view.steps.x), std::abs(view.steps.y));
-      const double across = std::min(std::abs(view.steps.x), std::abs(view.steps.y));
-      if (along < 1e-9 || (on_axis_only && across > ON_AXIS * along))
-      {
-        continue;
-      }
-      const bool horizontal = std::abs(view.steps.x) >= std::abs(view.steps.y);
-      const bool positive = (horizontal ? view.steps.x : view.steps.y) > 0;
-      arms[(horizontal ? 0U : 2U) + (positive ? 0U : 1U)].push_back(&view);
-    }
-    std::vector<Arm> filled;
-    for (Arm& arm : arms)
-    {
-      if (!arm.empty())
-      {
-        filled.push_back(thinOut(std::move(arm)));
-      }
-    }
-    if (!filled.empty())
-    {
-      return filled;
-    }
-  }
-  return {};
-}
-
-/// How often a view is halved before its longer side would be less than side_px.
-int halvingsFor(const cv::Size& size, int side_px)
-{
-  constexpr int LEAST_SIDE_PX = 16;
-  int halvings = 0;
-  while (std::max(size.width, size.height) >> (halvings + 1) >= side_px &&
-         std::min(size.width, size.height) >> (halvings + 1) >= LEAST_SIDE_PX)
-  {
-    ++halvings;
-  }
-  return halvings;
-}
-
-cv::Mat halve(const cv::Mat& image)
-{
-  const cv::Size half(image.cols / 2, image.rows / 2);
-  cv::Mat result;
-  cv::resize(image(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), result, half, 0, 0, cv::INTER_AREA);
-  return result;
-}
 
 /// The grey view at two scales.
 struct SmallView
@@ -161,18 +89,14 @@ public:
   {
     coarse_halvings_ = halvingsFor(light_field.size(), COARSE_SIDE_PX);
     fine_halvings_ = halvingsFor(light_field.size(), FINE_SIDE_PX);
-    nearest_ = std::numeric_limits<double>::max();
-    for (const Arm& arm : arms_)
-    {
-      nearest_ = std::min(nearest_, distanceOf(*arm.front()));
-      farthest_ = std::max(farthest_, distanceOf(*arm.back()));
-    }
+    nearest_ = nearestDistance(arms_);
+    farthest_ = farthestDistance(arms_);
     shrinkViews(light_field.reference());
   }
 
   DisparityRange find(const DisparityRangeOptions& options)
   {
-    const float most = largestDisparity(options);
+    const float most = largestDisparity(arms_, options.max_displacement_px);
     range_ = {-most, most};
     sweep(Views::Nearest, coarse_halvings_);
     if (found_ && fine_halvings_ < coarse_halvings_)
@@ -202,20 +126,6 @@ private:
     Nearest,
     Farther
   };
-
-  float largestDisparity(const DisparityRangeOptions& options) const
-  {
-    constexpr double LARGEST_FRACTION_OF_SIDE = 0.4;
-    double most = options.max_displacement_px / nearest_;
-    for (const Arm& arm : arms_)
-    {
-      const cv::Point2d steps = arm.front()->steps;
-      const bool horizontal = std::abs(steps.x) >= std::abs(steps.y);
-      const int side = horizontal ? arm.front()->image.cols : arm.front()->image.rows;
-      most = std::min(most, LARGEST_FRACTION_OF_SIDE * side / distanceOf(*arm.front()));
-    }
-    return static_cast<float>(most);
-  }
 
   void shrinkViews(const View& reference)
   {

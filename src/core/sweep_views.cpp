@@ -1,0 +1,118 @@
+#include "sweep_views.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+namespace light_field_depth
+{
+namespace
+{
+/// The nearest, the farthest and one half-way between them.
+Arm thinOut(Arm arm)
+{
+  std::stable_sort(arm.begin(), arm.end(),
+                   [](const View* a, const View* b) { return distanceOf(*a) < distanceOf(*b); });
+  return arm.size() <= 3 ? arm : Arm{arm.front(), arm[arm.size() / 2], arm.back()};
+}
+
+}  // namespace
+
+double distanceOf(const View& view)
+{
+  return std::hypot(view.steps.x, view.steps.y);
+}
+
+std::vector<Arm> armsOf(const LightField& light_field)
+{
+  constexpr double ON_AXIS = 0.05;
+  for (const bool on_axis_only : {true, false})
+  {
+    std::array<Arm, 4> arms;
+    for (const View& view : light_field.views)
+    {
+      const double along = std::max(std::abs(view.steps.x), std::abs(view.steps.y));
+      const double across = std::min(std::abs(view.steps.x), std::abs(view.steps.y));
+      if (along < 1e-9 || (on_axis_only && across > ON_AXIS * along))
+      {
+        continue;
+      }
+      const bool horizontal = std::abs(view.steps.x) >= std::abs(view.steps.y);
+      const bool positive = (horizontal ? view.steps.x : view.steps.y) > 0;
+      arms[(horizontal ? 0U : 2U) + (positive ? 0U : 1U)].push_back(&view);
+    }
+    std::vector<Arm> filled;
+    for (Arm& arm : arms)
+    {
+      if (!arm.empty())
+      {
+        filled.push_back(thinOut(std::move(arm)));
+      }
+    }
+    if (!filled.empty())
+    {
+      return filled;
+    }
+  }
+  return {};
+}
+
+double nearestDistance(const std::vector<Arm>& arms)
+{
+  double nearest = std::numeric_limits<double>::max();
+  for (const Arm& arm : arms)
+  {
+    nearest = std::min(nearest, distanceOf(*arm.front()));
+  }
+  return nearest;
+}
+
+double farthestDistance(const std::vector<Arm>& arms)
+{
+  double farthest = 0.0;
+  for (const Arm& arm : arms)
+  {
+    farthest = std::max(farthest, distanceOf(*arm.back()));
+  }
+  return farthest;
+}
+
+float largestDisparity(const std::vector<Arm>& arms, float max_displacement_px)
+{
+  constexpr double LARGEST_FRACTION_OF_SIDE = 0.4;
+  double most = max_displacement_px / nearestDistance(arms);
+  for (const Arm& arm : arms)
+  {
+    const View& nearest = *arm.front();
+    const bool horizontal = std::abs(nearest.steps.x) >= std::abs(nearest.steps.y);
+    const int side = horizontal ? nearest.image.cols : nearest.image.rows;
+    most = std::min(most, LARGEST_FRACTION_OF_SIDE * side / distanceOf(nearest));
+  }
+  return static_cast<float>(most);
+}
+
+int halvingsFor(const cv::Size& size, int side_px)
+{
+  constexpr int LEAST_SIDE_PX = 16;
+  int halvings = 0;
+  while (std::max(size.width, size.height) >> (halvings + 1) >= side_px &&
+         std::min(size.width, size.height) >> (halvings + 1) >= LEAST_SIDE_PX)
+  {
+    ++halvings;
+  }
+  return halvings;
+}
+
+cv::Mat halve(const cv::Mat& image)
+{
+  const cv::Size half(image.cols / 2, image.rows / 2);
+  cv::Mat result;
+  cv::resize(image(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), result, half, 0, 0, cv::INTER_AREA);
+  return result;
+}
+
+}  // namespace light_field_depth
