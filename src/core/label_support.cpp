@@ -224,7 +224,38 @@ LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners
   return supported;
 }
 
+/// Of the parabola through the costs of the best label and its neighbours.
+float vertexOfCost(const CostVolume& volume, int label, std::size_t pixel)
+{
+  if (label == 0 || label == volume.labels - 1)
+  {
+    return static_cast<float>(label);
+  }
+  const int before = volume.cost(label - 1)[pixel];
+  const int here = volume.cost(label)[pixel];
+  const int after = volume.cost(label + 1)[pixel];
+  const int curvature = before - 2 * here + after;
+  const float shift =
+      curvature > 0 ? 0.5F * static_cast<float>(before - after) / static_cast<float>(curvature) : 0.0F;
+  return static_cast<float>(label) + shift;
+}
+
 }  // namespace
+
+std::vector<float> findCertainLabels(const CostVolume& volume, ThreadPool& pool)
+{
+  const Winners winners = findWinners(volume, pool);
+  const Contrast contrast(median(winners.cost));
+  std::vector<float> labels(volume.area(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    if (isCertain(winners, i, contrast))
+    {
+      labels[i] = vertexOfCost(volume, winners.label[i], i);
+    }
+  }
+  return labels;
+}
 
 std::optional<LabelSupport> findSupportedLabels(const CostVolume& volume, ThreadPool& pool)
 {

@@ -2,6 +2,7 @@
 #define LIGHT_FIELD_DEPTH_SRC_CORE_LABEL_SUPPORT_H
 
 #include <optional>
+#include <vector>
 
 #include "light_field_depth/core/thread_pool.h"
 #include "plane_sweep.h"
@@ -30,6 +31,9 @@ struct LabelSupport
 /// noise nor repeated texture widens it, and a small object does.
 /// @return nothing if hardly any pixel is certain
 std::optional<LabelSupport> findSupportedLabels(const CostVolume& volume, ThreadPool& pool);
+
+/// For each pixel that is certain of its best label, that label, refined between labels; NaN for the others.
+std::vector<float> findCertainLabels(const CostVolume& volume, ThreadPool& pool);
 
 }  // namespace light_field_depth
 

@@ -9,6 +9,7 @@
 
 #include "light_field_depth/core/disparity_range.h"
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/exposure.h"
 #include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/noise.h"
 #include "light_field_depth/core/multiview/solver.h"
@@ -86,6 +87,12 @@ int refinementsOf(const MultiviewOptions& options)
       break;
   }
   return 2;
+}
+
+LightField withEqualExposure(const LightField& light_field, RunContext& context)
+{
+  const StageTimer timer(context, "exposure");
+  return compensateExposure(light_field, estimateExposure(light_field, context.pool), context.pool);
 }
 
 SolverSettings solverSettings(const MultiviewOptions& options)
@@ -196,9 +203,10 @@ const LightField& MultiviewEstimator::reduced(const LightField& chosen, RunConte
   return buffers_->half.reduce(chosen, context.pool);
 }
 
-void MultiviewEstimator::solve(const LightField& chosen, const EstimateRequest& request, RunContext& context,
+void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& request, RunContext& context,
                                DisparityEstimate& estimate)
 {
+  const LightField chosen = withEqualExposure(views, context);
   {
     const StageTimer timer(context, "range");
     estimate.range =

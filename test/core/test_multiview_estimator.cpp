@@ -11,6 +11,7 @@
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/multiview/noise.h"
 #include "light_field_depth/core/multiview_estimator.h"
+#include "support/named_scenes.h"
 #include "support/synthetic_scene.h"
 
 namespace light_field_depth
@@ -166,6 +167,17 @@ TEST(MultiviewEstimator, MeasuresNoiseAndWithstandsIt)
     const auto result = estimate(input.light_field, STANDARD_RANGE);
     EXPECT_LT(testing::meanAbsoluteError(result.disparity, input.truth), 0.03 + 0.012 * sigma)
         << "sigma " << sigma;
+  }
+}
+
+TEST(MultiviewEstimator, WithstandsExposureAndVignettingThatDifferFromViewToView)
+{
+  for (const testing::NamedScene& scene : {testing::exposureDifferences(), testing::vignetting()})
+  {
+    const auto input = scene.render();
+    const auto result = estimate(input.light_field, STANDARD_RANGE);
+    EXPECT_LT(testing::meanAbsoluteError(result.disparity, input.truth), 0.025) << scene.name;
+    EXPECT_LT(testing::badPercentage(result.disparity, input.truth, 0.1), 2.5) << scene.name;
   }
 }
 

@@ -73,7 +73,7 @@ public:
 private:
   struct Buffers;
   const LightField& reduced(const LightField& chosen, RunContext& context);
-  void solve(const LightField& chosen, const EstimateRequest& request, RunContext& context,
+  void solve(const LightField& views, const EstimateRequest& request, RunContext& context,
              DisparityEstimate& estimate);
   void upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate);
 

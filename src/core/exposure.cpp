@@ -1,0 +1,274 @@
+#include "light_field_depth/core/exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "exposure_fit.h"
+#include "label_support.h"
+#include "light_field_depth/core/error.h"
+#include "plane_sweep.h"
+#include "sweep_views.h"
+
+namespace light_field_depth
+{
+namespace
+{
+/// The reduced views have at least this many pixels on their longer side (if the views have them).
+constexpr int SMALL_SIDE_PX = 96;
+/// Spacing of the labels, in pixels of the reduced views, in the farthest view.
+constexpr float LABEL_DISPLACEMENT = 0.5F;
+/// How far a point may move between neighbouring views.
+constexpr float MAX_DISPLACEMENT_PX = 48.0F;
+/// More pairs of a view cost time only.
+constexpr std::size_t MOST_PAIRS = 2000;
+/// Means of several pixels outside may have had values that were cut off.
+constexpr double DARKEST_LEVEL = 5.0;
+constexpr double BRIGHTEST_LEVEL = 240.0;
+
+/// Makes mean and contrast of the surroundings alike everywhere.
+cv::Mat normalizeLocally(const cv::Mat& image)
+{
+  constexpr int WINDOW_SIDE = 9;
+  constexpr double LEAST_DEVIATION = 4.0;
+  constexpr double DEVIATION = 40.0;
+  constexpr double MIDDLE = 128.0;
+  cv::Mat grey = image;
+  if (image.channels() == 3)
+  {
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  }
+  cv::Mat values;
+  cv::Mat mean;
+  cv::Mat deviation;
+  grey.convertTo(values, CV_32F);
+  const cv::Size window(WINDOW_SIDE, WINDOW_SIDE);
+  cv::boxFilter(values, mean, CV_32F, window);
+  values -= mean;
+  cv::boxFilter(values.mul(values), deviation, CV_32F, window);
+  cv::sqrt(deviation, deviation);
+  deviation += LEAST_DEVIATION;
+  cv::Mat result;
+  cv::divide(values, deviation, values, DEVIATION);
+  values.convertTo(result, CV_8U, 1.0, MIDDLE);
+  return result;
+}
+
+/// Brightness is compared over windows of this side, so that small displacements do not matter.
+constexpr int WINDOW_SIDE = 5;
+
+cv::Mat lowPass(const cv::Mat& image)
+{
+  cv::Mat result;
+  cv::GaussianBlur(image, result, cv::Size(WINDOW_SIDE, WINDOW_SIDE), 0.0);
+  return result;
+}
+
+/// Not 0 where nothing near the pixel was cut off at black or white.
+cv::Mat exposedPixels(const cv::Mat& image)
+{
+  const cv::Mat window = cv::Mat::ones(3, 3, CV_8U);
+  cv::Mat darkest;
+  cv::Mat brightest;
+  cv::erode(image, darkest, window);
+  cv::dilate(image, brightest, window);
+  cv::inRange(darkest, cv::Scalar::all(DARKEST_LEVEL), cv::Scalar::all(BRIGHTEST_LEVEL), darkest);
+  cv::inRange(brightest, cv::Scalar::all(DARKEST_LEVEL), cv::Scalar::all(BRIGHTEST_LEVEL), brightest);
+  return darkest & brightest;
+}
+
+/// A pixel of the reduced reference and its disparity.
+struct Match
+{
+  cv::Point pixel;
+  float disparity;
+};
+
+class ExposureFinder
+{
+public:
+  ExposureFinder(const LightField& light_field, ThreadPool& pool)
+      : light_field_(light_field), pool_(pool), arms_(armsOf(light_field)),
+        halvings_(halvingsFor(light_field.size(), SMALL_SIDE_PX)),
+        scale_(static_cast<float>(std::ldexp(1.0, -halvings_))), small_(light_field.views.size()),
+        exposed_(light_field.views.size()), normalized_(light_field.views.size())
+  {
+    forEachView(
+        [&](std::size_t i)
+        {
+          cv::Mat small = light_field_.views[i].image;
+          for (int halving = 0; halving < halvings_; ++halving)
+          {
+            small = halve(small);
+          }
+          if (takesPart(i))
+          {
+            normalized_[i] = normalizeLocally(small);
+          }
+          small_[i] = lowPass(small);
+          exposed_[i] = exposedPixels(small);
+        });
+  }
+
+  std::vector<ViewExposure> find()
+  {
+    const std::vector<Match> matches = findMatches();
+    std::vector<ViewExposure> exposures(small_.size());
+    forEachView(
+        [&](std::size_t i)
+        {
+          if (i != light_field_.reference_index)
+          {
+            exposures[i] = fitExposure(collectPairs(i, matches), small_[i].channels());
+          }
+        });
+    return exposures;
+  }
+
+private:
+  void forEachView(const std::function<void(std::size_t)>& body)
+  {
+    pool_.parallelFor(0, static_cast<int>(small_.size()), 1,
+                      [&](int first, int last)
+                      {
+                        for (int i = first; i < last; ++i)
+                        {
+                          body(static_cast<std::size_t>(i));
+                        }
+                      });
+  }
+
+  /// In the sweeps.
+  bool takesPart(std::size_t index) const
+  {
+    const View* const view = &light_field_.views[index];
+    return index == light_field_.reference_index ||
+           std::any_of(arms_.begin(), arms_.end(),
+                       [&](const Arm& arm) { return std::find(arm.begin(), arm.end(), view) != arm.end(); });
+  }
+
+  SweepView sweepView(const View& view) const
+  {
+    const auto index = static_cast<std::size_t>(&view - light_field_.views.data());
+    return {normalized_[index], cv::Point2f(view.steps) * scale_, cv::Point2f(view.offset_px) * scale_};
+  }
+
+  PlaneSweep planSweep(const DisparityRange& range, double reach) const
+  {
+    PlaneSweep plan;
+    plan.reference = normalized_[light_field_.reference_index];
+    plan.disparity_step = LABEL_DISPLACEMENT / (scale_ * static_cast<float>(reach));
+    plan.first_disparity = range.min;
+    plan.labels = 1 + static_cast<int>(std::ceil((range.max - range.min) / plan.disparity_step));
+    return plan;
+  }
+
+  std::vector<Match> findMatches() const
+  {
+    const float most = largestDisparity(arms_, MAX_DISPLACEMENT_PX);
+    const double nearest = nearestDistance(arms_);
+    PlaneSweep plan = planSweep({-most, most}, nearest);
+    for (const Arm& arm : arms_)
+    {
+      plan.arms.push_back({sweepView(*arm.front())});
+    }
+    const CostVolume volume = sweepPlanes(plan, pool_);
+    std::vector<Match> matches = certainMatches(plan, volume);
+    const double farthest = farthestDistance(arms_);
+    const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_);
+    if (!support || farthest < 1.5 * nearest)
+    {
+      return matches;
+    }
+    plan = planSweep({plan.disparity(static_cast<float>(support->core.first) - 1.0F),
+                      plan.disparity(static_cast<float>(support->core.last) + 1.0F)},
+                     farthest);
+    for (const Arm& arm : arms_)
+    {
+      SweepArm sweep_arm;
+      for (const View* view : arm)
+      {
+        sweep_arm.push_back(sweepView(*view));
+      }
+      plan.arms.push_back(std::move(sweep_arm));
+    }
+    return certainMatches(plan, sweepPlanes(plan, pool_));
+  }
+
+  std::vector<Match> certainMatches(const PlaneSweep& plan, const CostVolume& volume) const
+  {
+    const std::vector<float> labels = findCertainLabels(volume, pool_);
+    std::vector<Match> matches;
+    for (std::size_t i = 0; i < labels.size(); ++i)
+    {
+      if (!std::isnan(labels[i]))
+      {
+        const int width = plan.reference.cols;
+        matches.push_back(
+            {cv::Point(static_cast<int>(i) % width, static_cast<int>(i) / width), plan.disparity(labels[i])});
+      }
+    }
+    return matches;
+  }
+
+  std::vector<BrightnessPair> collectPairs(std::size_t index, const std::vector<Match>& matches) const
+  {
+    const View& view = light_field_.views[index];
+    const cv::Mat& reference = small_[light_field_.reference_index];
+    const cv::Mat& other = small_[index];
+    const std::size_t stride = 1 + matches.size() / MOST_PAIRS;
+    const cv::Rect inside(cv::Point(), other.size());
+    const cv::Point2f middle(0.5F * static_cast<float>(other.cols - 1),
+                             0.5F * static_cast<float>(other.rows - 1));
+    const auto half_diagonal =
+        0.5F * std::hypot(static_cast<float>(other.cols), static_cast<float>(other.rows));
+    std::vector<BrightnessPair> pairs;
+    pairs.reserve(matches.size() / stride + 1);
+    for (std::size_t i = 0; i < matches.size(); i += stride)
+    {
+      const cv::Point2f seen = cv::Point2f(matches[i].pixel) +
+                               scale_ * cv::Point2f(view.offset_px - matches[i].disparity * view.steps);
+      const cv::Point nearest(cvRound(seen.x), cvRound(seen.y));
+      if (inside.contains(nearest) && exposed_[index].at<std::uint8_t>(nearest) != 0 &&
+          exposed_[light_field_.reference_index].at<std::uint8_t>(matches[i].pixel) != 0)
+      {
+        const cv::Point2f place = (seen - middle) / half_diagonal;
+        pairs.push_back({valueAt(reference, matches[i].pixel), valueAt(other, nearest), place});
+      }
+    }
+    return pairs;
+  }
+
+  static cv::Vec3f valueAt(const cv::Mat& image, const cv::Point& pixel)
+  {
+    return image.channels() == 3 ? cv::Vec3f(image.at<cv::Vec3b>(pixel))
+                                 : cv::Vec3f::all(image.at<std::uint8_t>(pixel));
+  }
+
+  const LightField& light_field_;
+  ThreadPool& pool_;
+  std::vector<Arm> arms_;
+  int halvings_;
+  float scale_;                      ///< of the reduced views
+  std::vector<cv::Mat> small_;       ///< all views, reduced and smoothed, in colour
+  std::vector<cv::Mat> exposed_;     ///< pixels of all views that are neither black nor white
+  std::vector<cv::Mat> normalized_;  ///< of the views that take part in the sweeps
+};
+
+}  // namespace
+
+std::vector<ViewExposure> estimateExposure(const LightField& light_field, ThreadPool& pool)
+{
+  if (light_field.reference().image.depth() != CV_8U)
+  {
+    throw InputError("Exposure is estimated from 8-bit views; convert the light field first.");
+  }
+  return ExposureFinder(light_field, pool).find();
+}
+
+}  // namespace light_field_depth
