@@ -11,6 +11,7 @@
 #include "kernel_benchmark.h"
 #include "light_fields.h"
 #include "report_files.h"
+#include "scaling.h"
 
 namespace light_field_depth::benchmark
 {
@@ -24,11 +25,12 @@ struct Measurement
 };
 
 /// The first one is taken when none is named.
-constexpr std::array<Measurement, 3> MEASUREMENTS = {{
+constexpr std::array<Measurement, 4> MEASUREMENTS = {{
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
     {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
     {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
+    {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
 }};
 
 void declare(CLI::App& app, Settings& settings)

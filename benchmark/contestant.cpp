@@ -59,25 +59,19 @@ nlohmann::ordered_json accuracyJson(const Result& result)
 
 std::vector<Result> measure(const Scene& scene, const std::vector<Contestant>& contestants, int rounds)
 {
+  std::vector<Answer> answers(contestants.size());
+  std::vector<std::function<void()>> tasks;
+  for (std::size_t i = 0; i < contestants.size(); ++i)
+  {
+    tasks.emplace_back([&, i] { answers[i] = contestants[i].run(scene.light_field); });
+  }
+  const std::vector<Timing> timings = timeInRounds(tasks, rounds);
   std::vector<Result> results;
   results.reserve(contestants.size());
-  for (const Contestant& contestant : contestants)
+  for (std::size_t i = 0; i < contestants.size(); ++i)
   {
-    results.push_back({scene.name, contestant.name, {}, {}, {}});
-  }
-  for (int round = 0; round < rounds; ++round)
-  {
-    for (std::size_t i = 0; i < contestants.size(); ++i)
-    {
-      contestants[i].run(scene.light_field);
-      Answer answer;
-      results[i].timing.milliseconds.push_back(
-          millisecondsOf([&] { answer = contestants[i].run(scene.light_field); }));
-      if (round + 1 == rounds)
-      {
-        score(answer, scene, results[i]);
-      }
-    }
+    results.push_back({scene.name, contestants[i].name, timings[i], {}, {}});
+    score(answers[i], scene, results.back());
   }
   return results;
 }

@@ -58,9 +58,7 @@ struct Result
 /// What both tables say about accuracy, in one object.
 nlohmann::ordered_json accuracyJson(const Result& result);
 
-/// Runs every contestant in every round, so that a machine that changes its speed changes it for all. In
-/// each round a contestant sees the light field twice, as in a stream of frames: once to fill its caches,
-/// and once on the clock. The answer of the last round is scored.
+/// Times all contestants in rounds, and scores their last answers.
 std::vector<Result> measure(const Scene& scene, const std::vector<Contestant>& contestants, int rounds);
 
 }  // namespace light_field_depth::benchmark

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "light_field_depth/core/multiview/cost_kernels.h"
+#include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 #include "light_field_depth/core/multiview/path_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
@@ -262,12 +263,33 @@ Kernel linearization()
           bytes_per_pixel * TILE_PIXELS, with(linearizeTile), with(linearizeTilePlain)};
 }
 
+Kernel halving()
+{
+  struct Rows
+  {
+    std::vector<std::uint8_t> upper = randomBytes(2 * CHANNELS * STRIDE, 255);
+    std::vector<std::uint8_t> lower = randomBytes(2 * CHANNELS * STRIDE, 255);
+    std::vector<std::uint8_t> half = std::vector<std::uint8_t>(STRIDE);
+  };
+  const auto rows = std::make_shared<Rows>();
+  const auto with = [&](auto kernel)
+  {
+    return calling(rows,
+                   [kernel](Rows& data) {
+                     kernel(data.upper.data(), data.lower.data(), static_cast<int>(CHANNELS), WIDTH,
+                            data.half.data());
+                   });
+  };
+  return {"half resolution in grey",       "reduced pixel", PIXELS,
+          PIXELS * (4.0 * CHANNELS + 1.0), with(halveRow),  with(halveRowPlain)};
+}
+
 }  // namespace
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(), armCost(),     visibleCost(),    transposition(),
-          rowPaths(),      columnPaths(), labelSelection(), linearization()};
+  return {interpolation(), armCost(),        visibleCost(),   transposition(), rowPaths(),
+          columnPaths(),   labelSelection(), linearization(), halving()};
 }
 
 }  // namespace light_field_depth::benchmark

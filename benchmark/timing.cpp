@@ -42,6 +42,20 @@ double Timing::slowest() const
   return *std::max_element(milliseconds.begin(), milliseconds.end());
 }
 
+std::vector<Timing> timeInRounds(const std::vector<std::function<void()>>& tasks, int rounds)
+{
+  std::vector<Timing> timings(tasks.size());
+  for (int round = 0; round < rounds; ++round)
+  {
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+    {
+      tasks[i]();
+      timings[i].milliseconds.push_back(millisecondsOf(tasks[i]));
+    }
+  }
+  return timings;
+}
+
 std::string toText(const Timing& timing)
 {
   constexpr double few_milliseconds = 10.0;

@@ -2,6 +2,7 @@
 #define LIGHT_FIELD_DEPTH_BENCHMARK_TIMING_H
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct Timing
 
 /// Of the values, the mean of the two in the middle where their number is even. @pre not empty
 double median(std::vector<double> values);
+
+/// Does every task in every round, so that a machine that changes its speed changes it for all. In each round
+/// a task runs twice, as in a stream of frames: once to fill its caches, and once on the clock.
+/// @return one entry a task
+std::vector<Timing> timeInRounds(const std::vector<std::function<void()>>& tasks, int rounds);
 
 /// "183 (153..306)"; with decimals below ten.
 std::string toText(const Timing& timing);
