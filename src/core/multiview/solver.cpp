@@ -68,7 +68,12 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
   cost.min_seeing_views = std::min(cost.min_seeing_views, static_cast<int>(views_.views.size()));
   {
     const StageTimer timer(context, "cost");
-    cost_builder_.buildFromArms(views_, labels_, cost, context.pool, volume_);
+    bands_.setAll(views_.width(), views_.height(), labels_.count);
+    cost_builder_.buildFromArms(views_, labels_, bands_, cost, context.pool, volume_);
+  }
+  {
+    const StageTimer timer(context, "aggregate");
+    aggregator_.setGuide(guide(), settings.paths, context.pool);
   }
   aggregate(settings, context);
   disparity_.copyTo(first_search_);
@@ -81,7 +86,7 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
     }
     {
       const StageTimer timer(context, "visible cost");
-      cost_builder_.buildFromVisible(views_, labels_, surfaces_, cost, context.pool, volume_);
+      cost_builder_.buildFromVisible(views_, labels_, bands_, surfaces_, cost, context.pool, volume_);
     }
     aggregate(settings, context);
   }
@@ -91,7 +96,7 @@ void Solver::aggregate(const SolverSettings& settings, RunContext& context)
 {
   {
     const StageTimer timer(context, "aggregate");
-    aggregator_.aggregate(volume_, guide(), settings.paths, context.pool, label_);
+    aggregator_.aggregate(volume_, settings.paths, context.pool, label_);
   }
   const StageTimer timer(context, "median");
   cv::medianBlur(label_, scratch_, MEDIAN_SIZE);
