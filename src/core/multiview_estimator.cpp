@@ -104,6 +104,8 @@ SolverSettings solverSettings(const MultiviewOptions& options)
   settings.paths.small_step = options.small_change_penalty;
   settings.paths.large_step = options.large_change_penalty;
   settings.visibility_passes = options.visibility_passes;
+  settings.fuse_background = options.background_fusion && !settings.grey_search;
+  settings.keep_thin_structures = options.thin_structures;
   settings.decide_edge_sides = options.edge_sides;
   settings.refinements = refinementsOf(options);
   settings.linearization.brightness_slope = options.brightness_slope;

@@ -44,6 +44,10 @@ struct MultiviewOptions
   /// Times that the views' occlusions are found from the map and the search repeated. More than one costs
   /// time and rarely helps.
   int visibility_passes = 1;
+  /// Move textureless regions to the farthest of their borders; the presets realtime and fast leave it out.
+  bool background_fusion = true;
+  /// Keep twigs and wires that a median would wipe out.
+  bool thin_structures = true;
   /// Decide by colour to which side a pixel at a depth edge belongs.
   bool edge_sides = true;
   /// Times that the disparity is refined below the label step; more help smooth surfaces with gloss.

@@ -72,6 +72,8 @@ void visitOptions(Options& options, Visitor&& visit)
   visit("multiview_small_change_penalty", options.multiview.small_change_penalty);
   visit("multiview_large_change_penalty", options.multiview.large_change_penalty);
   visit("multiview_visibility_passes", options.multiview.visibility_passes);
+  visit("multiview_background_fusion", options.multiview.background_fusion);
+  visit("multiview_thin_structures", options.multiview.thin_structures);
   visit("multiview_edge_sides", options.multiview.edge_sides);
   visit("multiview_refinements", options.multiview.refinements);
   visit("multiview_brightness_slope", options.multiview.brightness_slope);

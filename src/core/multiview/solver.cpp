@@ -68,14 +68,13 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
   cost.min_seeing_views = std::min(cost.min_seeing_views, static_cast<int>(views_.views.size()));
   {
     const StageTimer timer(context, "cost");
-    bands_.setAll(views_.width(), views_.height(), labels_.count);
-    cost_builder_.buildFromArms(views_, labels_, bands_, cost, context.pool, volume_);
-  }
-  {
-    const StageTimer timer(context, "aggregate");
-    aggregator_.setGuide(guide(), settings.paths, context.pool);
+    cost_builder_.buildFromArms(views_, labels_, cost, context.pool, volume_);
   }
   aggregate(settings, context);
+  if (settings.fuse_background)
+  {
+    fuseBackground(settings, context);
+  }
   disparity_.copyTo(first_search_);
   save(context, "multiview_first_search", first_search_);
   for (int pass = 0; pass < settings.visibility_passes; ++pass)
@@ -86,21 +85,43 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
     }
     {
       const StageTimer timer(context, "visible cost");
-      cost_builder_.buildFromVisible(views_, labels_, bands_, surfaces_, cost, context.pool, volume_);
+      cost_builder_.buildFromVisible(views_, labels_, surfaces_, cost, context.pool, volume_);
+      if (settings.fuse_background)
+      {
+        background_.hold(context.pool, volume_);
+      }
     }
     aggregate(settings, context);
   }
+}
+
+void Solver::fuseBackground(const SolverSettings& settings, RunContext& context)
+{
+  {
+    const StageTimer timer(context, "background");
+    background_.prepare(labels_, disparity_, settings.background, context.pool, volume_);
+    cv::swap(disparity_, searched_);
+  }
+  aggregate(settings, context);
+  const StageTimer timer(context, "background");
+  cv::swap(disparity_, searched_);
+  save(context, "multiview_background", searched_);
+  background_.fuse(volume_, aggregator_, settings.paths, searched_, disparity_);
 }
 
 void Solver::aggregate(const SolverSettings& settings, RunContext& context)
 {
   {
     const StageTimer timer(context, "aggregate");
-    aggregator_.aggregate(volume_, settings.paths, context.pool, label_);
+    aggregator_.aggregate(volume_, guide(), settings.paths, context.pool, label_);
   }
   const StageTimer timer(context, "median");
-  cv::medianBlur(label_, scratch_, MEDIAN_SIZE);
-  scratch_.convertTo(disparity_, CV_32F, labels_.step_px, labels_.first_px);
+  label_.convertTo(scratch_, CV_32F, labels_.step_px, labels_.first_px);
+  cv::medianBlur(scratch_, disparity_, MEDIAN_SIZE);
+  if (settings.keep_thin_structures)
+  {
+    keepThinStructures(guide(), scratch_, settings.thin_structures, context.pool, disparity_);
+  }
 }
 
 void Solver::refine(const SolverSettings& settings, RunContext& context)

@@ -6,13 +6,14 @@
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/multiview/background_fusion.h"
 #include "light_field_depth/core/multiview/cost_volume.h"
 #include "light_field_depth/core/multiview/edge_aware_smoothing.h"
 #include "light_field_depth/core/multiview/edge_side.h"
-#include "light_field_depth/core/multiview/label_bands.h"
 #include "light_field_depth/core/multiview/label_space.h"
 #include "light_field_depth/core/multiview/path_aggregation.h"
 #include "light_field_depth/core/multiview/refinement.h"
+#include "light_field_depth/core/multiview/thin_structures.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview/visibility.h"
 #include "light_field_depth/core/run_context.h"
@@ -30,6 +31,10 @@ struct SolverSettings
   CostSettings cost;
   PathSettings paths;
   int visibility_passes = 1;
+  bool fuse_background = true;
+  BackgroundSettings background;
+  bool keep_thin_structures = true;
+  ThinStructureSettings thin_structures;
   bool decide_edge_sides = true;
   EdgeSideSettings edge_sides;
   int refinements = 2;
@@ -52,6 +57,7 @@ private:
   void prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context);
   void search(const SolverSettings& settings, RunContext& context);
   void aggregate(const SolverSettings& settings, RunContext& context);
+  void fuseBackground(const SolverSettings& settings, RunContext& context);
   void refine(const SolverSettings& settings, RunContext& context);
   void judge(const SolverSettings& settings, RunContext& context);
   const PlanarImage& guide() const
@@ -62,10 +68,10 @@ private:
   ViewSet views_;
   PlanarImage colour_reference_;  ///< only where the views are grey and the light field is not
   LabelSpace labels_;
-  LabelBands bands_;
   CostVolumeBuilder cost_builder_;
   CostVolume volume_;
   PathAggregator aggregator_;
+  BackgroundFusion background_;
   VisibleSurfaces surfaces_;
   Linearizer linearizer_;
   Linearization linearization_;

@@ -1,0 +1,341 @@
+#include "light_field_depth/core/multiview/background_fusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+namespace light_field_depth::multiview
+{
+namespace
+{
+constexpr int BLOCK_PX = 64;
+constexpr int ROWS_PER_CHUNK = 16;
+/// With fewer believed pixels about a block nothing is charged there.
+constexpr int MIN_BELIEVED = 30;
+/// Labels on each side that a believed label is compared with.
+constexpr int SUPPORT_DISTANCE = 2;
+constexpr std::int16_t NONE = -1;
+
+const std::uint8_t* costsAt(const CostVolume& volume, int x, int y)
+{
+  return volume.values.data() + volume.rowOffset(y) +
+         static_cast<std::size_t>(x) * static_cast<std::size_t>(volume.pitch);
+}
+
+std::uint8_t* costsAt(CostVolume& volume, int x, int y)
+{
+  return const_cast<std::uint8_t*>(costsAt(std::as_const(volume), x, y));
+}
+
+float interpolatedCost(const std::uint8_t* costs, float label, int labels)
+{
+  const float inside = std::clamp(label, 0.0F, static_cast<float>(labels - 1));
+  const int below = std::min(static_cast<int>(inside), labels - 2);
+  const float part = inside - static_cast<float>(below);
+  return static_cast<float>(costs[below]) * (1.0F - part) + static_cast<float>(costs[below + 1]) * part;
+}
+
+/// The mean over 3 x 3 pixels of how much worse the labels on both sides are.
+float support(const CostVolume& volume, int x, int y, int label)
+{
+  int sum = 0;
+  for (int dy = -1; dy <= 1; ++dy)
+  {
+    for (int dx = -1; dx <= 1; ++dx)
+    {
+      const std::uint8_t* const costs = costsAt(volume, x + dx, y + dy) + label;
+      sum += costs[-SUPPORT_DISTANCE] + costs[SUPPORT_DISTANCE] - 2 * costs[0];
+    }
+  }
+  return static_cast<float>(sum) / 18.0F;
+}
+
+void addSaturated(const std::vector<std::uint8_t>& charge, std::uint8_t* costs)
+{
+  for (std::size_t label = 0; label < charge.size(); ++label)
+  {
+    costs[label] = static_cast<std::uint8_t>(std::min(costs[label] + charge[label], 255));
+  }
+}
+
+/// 0 up to `first`, then a ramp up to `limit`.
+std::vector<std::uint8_t> ramp(int labels, float first, float per_label, int limit)
+{
+  std::vector<std::uint8_t> charge(static_cast<std::size_t>(labels));
+  for (std::size_t label = 0; label < charge.size(); ++label)
+  {
+    const float value = per_label * (static_cast<float>(label) - first);
+    charge[label] = static_cast<std::uint8_t>(std::clamp(cvRound(value), 0, limit));
+  }
+  return charge;
+}
+
+/// The label below which a share of the counts lies, or NONE if there are too few.
+std::int16_t lowestBelieved(const std::vector<int>& counts, float quantile)
+{
+  const int total = std::accumulate(counts.begin(), counts.end(), 0);
+  if (total < MIN_BELIEVED)
+  {
+    return NONE;
+  }
+  const float limit = quantile * static_cast<float>(total);
+  std::size_t label = 0;
+  int below = counts[0];
+  while (static_cast<float>(below) <= limit)
+  {
+    ++label;
+    below += counts[label];
+  }
+  return static_cast<std::int16_t>(label);
+}
+
+/// What a region costs in one of the two maps.
+struct Energy
+{
+  double data = 0.0;
+  double links = 0.0;
+
+  double total() const { return data + links; }
+};
+
+}  // namespace
+
+float BackgroundFusion::biasAt(int x, int y, float label) const
+{
+  const std::int16_t floor = floor_.at<std::int16_t>(y / BLOCK_PX, x / BLOCK_PX);
+  return floor == NONE ? 0.0F
+                       : std::clamp(settings_.bias_per_label * (label - static_cast<float>(floor)), 0.0F,
+                                    static_cast<float>(settings_.max_bias));
+}
+
+void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparity,
+                               const BackgroundSettings& settings, ThreadPool& pool, CostVolume& volume)
+{
+  labels_ = labels;
+  settings_ = settings;
+  moved_.create(disparity.size(), CV_16SC1);
+  moved_.setTo(NONE);
+  disparity.convertTo(label_, CV_32F, 1.0 / labels.step_px, -labels.first_px / labels.step_px);
+  findFloors(volume, pool);
+  pool.parallelFor(0, floor_.rows, 1,
+                   [&](int first, int last)
+                   {
+                     for (int block_y = first; block_y < last; ++block_y)
+                     {
+                       for (int block_x = 0; block_x < floor_.cols; ++block_x)
+                       {
+                         chargeBlock(block_x, block_y, volume);
+                       }
+                     }
+                   });
+}
+
+void BackgroundFusion::chargeBlock(int block_x, int block_y, CostVolume& volume) const
+{
+  const std::int16_t floor = floor_.at<std::int16_t>(block_y, block_x);
+  if (floor == NONE)
+  {
+    return;
+  }
+  const auto charge = ramp(volume.labels, floor, settings_.bias_per_label, settings_.max_bias);
+  const int last_x = std::min((block_x + 1) * BLOCK_PX, volume.width);
+  const int last_y = std::min((block_y + 1) * BLOCK_PX, volume.height);
+  for (int y = block_y * BLOCK_PX; y < last_y; ++y)
+  {
+    for (int x = block_x * BLOCK_PX; x < last_x; ++x)
+    {
+      addSaturated(charge, costsAt(volume, x, y));
+    }
+  }
+}
+
+/// The lowest label, but for a few, that the images support about every block.
+void BackgroundFusion::findFloors(const CostVolume& volume, ThreadPool& pool)
+{
+  data_cost_.create(label_.size(), CV_32FC1);
+  supported_.create(label_.size(), CV_16SC1);
+  const auto believed = [&](int x, int y)
+  {
+    const int label = cvRound(label_.at<float>(y, x));
+    const bool inside = x > 0 && y > 0 && x + 1 < volume.width && y + 1 < volume.height &&
+                        label >= SUPPORT_DISTANCE && label + SUPPORT_DISTANCE < volume.labels;
+    return inside && support(volume, x, y, label) > settings_.min_support ? static_cast<std::int16_t>(label)
+                                                                          : NONE;
+  };
+  pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     for (int y = first; y < last; ++y)
+                     {
+                       for (int x = 0; x < volume.width; ++x)
+                       {
+                         data_cost_.at<float>(y, x) =
+                             interpolatedCost(costsAt(volume, x, y), label_.at<float>(y, x), volume.labels);
+                         supported_.at<std::int16_t>(y, x) = believed(x, y);
+                       }
+                     }
+                   });
+  floor_.create((volume.height + BLOCK_PX - 1) / BLOCK_PX, (volume.width + BLOCK_PX - 1) / BLOCK_PX,
+                CV_16SC1);
+  chooseFloors(volume.labels);
+}
+
+void BackgroundFusion::chooseFloors(int labels)
+{
+  const auto label_count = static_cast<std::size_t>(labels);
+  std::vector<int> counts(floor_.total() * label_count);
+  const auto counts_of = [&](int block_x, int block_y)
+  { return counts.begin() + static_cast<std::ptrdiff_t>(label_count) * (block_y * floor_.cols + block_x); };
+  for (int y = 0; y < supported_.rows; ++y)
+  {
+    for (int x = 0; x < supported_.cols; ++x)
+    {
+      const std::int16_t label = supported_.at<std::int16_t>(y, x);
+      if (label != NONE)
+      {
+        ++*(counts_of(x / BLOCK_PX, y / BLOCK_PX) + label);
+      }
+    }
+  }
+  std::vector<int> about(label_count);
+  for (int block_y = 0; block_y < floor_.rows; ++block_y)
+  {
+    for (int block_x = 0; block_x < floor_.cols; ++block_x)
+    {
+      std::fill(about.begin(), about.end(), 0);
+      for (int y = std::max(block_y - 1, 0); y <= std::min(block_y + 1, floor_.rows - 1); ++y)
+      {
+        for (int x = std::max(block_x - 1, 0); x <= std::min(block_x + 1, floor_.cols - 1); ++x)
+        {
+          std::transform(about.begin(), about.end(), counts_of(x, y), about.begin(), std::plus<>());
+        }
+      }
+      floor_.at<std::int16_t>(block_y, block_x) = lowestBelieved(about, settings_.floor_quantile);
+    }
+  }
+}
+
+/// A connected part of the image that the second search places farther.
+struct BackgroundFusion::Region
+{
+  int pixels = 0;
+  Energy kept;
+  Energy moved;
+
+  /// Texture that speaks against the move shows in the data alone, however smooth the result would be.
+  bool accepted(const BackgroundSettings& settings) const
+  {
+    const double rise = moved.data - kept.data;
+    return moved.total() < settings.accepted_energy * kept.total() &&
+           rise < settings.max_data_rise * kept.data && rise < settings.max_cost_rise * pixels;
+  }
+};
+
+void BackgroundFusion::fuse(const CostVolume& volume, const PathAggregator& paths,
+                            const PathSettings& path_settings, const cv::Mat& background, cv::Mat& disparity)
+{
+  const cv::Mat farther = disparity - background > settings_.min_drop_px;
+  const int count = cv::connectedComponents(farther, regions_, 4, CV_32S);
+  if (count == 1)
+  {
+    return;
+  }
+  std::vector<Region> regions(static_cast<std::size_t>(count));
+  addData(volume, background, regions);
+  addLinks(paths, path_settings, background, regions);
+  for (int y = 0; y < volume.height; ++y)
+  {
+    for (int x = 0; x < volume.width; ++x)
+    {
+      const std::size_t region = regionAt(x, y);
+      if (region != 0 && regions[region].accepted(settings_))
+      {
+        disparity.at<float>(y, x) = background.at<float>(y, x);
+        const int label = cvRound(labels_.label(background.at<float>(y, x)));
+        moved_.at<std::int16_t>(y, x) = static_cast<std::int16_t>(std::max(0, label));
+      }
+    }
+  }
+}
+
+void BackgroundFusion::addData(const CostVolume& volume, const cv::Mat& background,
+                               std::vector<Region>& regions) const
+{
+  for (int y = 0; y < volume.height; ++y)
+  {
+    for (int x = 0; x < volume.width; ++x)
+    {
+      const std::size_t region = regionAt(x, y);
+      if (region != 0)
+      {
+        const float label = labels_.label(background.at<float>(y, x));
+        const float cost = interpolatedCost(costsAt(volume, x, y), label, volume.labels);
+        ++regions[region].pixels;
+        regions[region].kept.data += data_cost_.at<float>(y, x);
+        regions[region].moved.data += cost - biasAt(x, y, label);
+      }
+    }
+  }
+}
+
+/// The links between neighbours of which at least one lies in a region.
+void BackgroundFusion::addLinks(const PathAggregator& paths, const PathSettings& settings,
+                                const cv::Mat& background, std::vector<Region>& regions) const
+{
+  const auto moved_label = [&](int x, int y)
+  { return regionAt(x, y) != 0 ? labels_.label(background.at<float>(y, x)) : label_.at<float>(y, x); };
+  const auto add = [&](int x, int y, int other_x, int other_y, std::uint16_t large_step)
+  {
+    const std::size_t region = std::max(regionAt(x, y), regionAt(other_x, other_y));
+    const auto cost = [&](float change)
+    {
+      return std::min(static_cast<float>(settings.small_step) * std::abs(change),
+                      static_cast<float>(large_step));
+    };
+    regions[region].kept.links += cost(label_.at<float>(y, x) - label_.at<float>(other_y, other_x));
+    regions[region].moved.links += cost(moved_label(x, y) - moved_label(other_x, other_y));
+  };
+  for (int y = 0; y < label_.rows; ++y)
+  {
+    for (int x = 0; x < label_.cols; ++x)
+    {
+      const std::size_t here = regionAt(x, y);
+      if (x > 0 && (here != 0 || regionAt(x - 1, y) != 0))
+      {
+        add(x, y, x - 1, y, paths.stepLeft(x, y));
+      }
+      if (y > 0 && (here != 0 || regionAt(x, y - 1) != 0))
+      {
+        add(x, y, x, y - 1, paths.stepAbove(x, y));
+      }
+    }
+  }
+}
+
+void BackgroundFusion::hold(ThreadPool& pool, CostVolume& volume) const
+{
+  pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     for (int y = first; y < last; ++y)
+                     {
+                       for (int x = 0; x < volume.width; ++x)
+                       {
+                         const std::int16_t label = moved_.at<std::int16_t>(y, x);
+                         if (label != NONE)
+                         {
+                           const auto free_up_to = static_cast<float>(label + settings_.hold_slack);
+                           addSaturated(
+                               ramp(volume.labels, free_up_to, settings_.hold_per_label, settings_.max_hold),
+                               costsAt(volume, x, y));
+                         }
+                       }
+                     }
+                   });
+}
+
+}  // namespace light_field_depth::multiview
