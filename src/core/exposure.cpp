@@ -26,7 +26,7 @@ constexpr float LABEL_DISPLACEMENT = 0.5F;
 /// How far a point may move between neighbouring views.
 constexpr float MAX_DISPLACEMENT_PX = 48.0F;
 /// More pairs of a view cost time only.
-constexpr std::size_t MOST_PAIRS = 2000;
+constexpr std::size_t MOST_PAIRS = 1000;
 /// Means of several pixels outside may have had values that were cut off.
 constexpr double DARKEST_LEVEL = 5.0;
 constexpr double BRIGHTEST_LEVEL = 240.0;

@@ -1,9 +1,9 @@
-#include "light_field_depth/core/exposure.h"
-
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+
+#include "light_field_depth/core/exposure.h"
+#include "sweep_kernels.h"
 
 namespace light_field_depth
 {
@@ -30,19 +30,6 @@ struct RowFactors
     }
   }
 
-  void apply(const std::uint8_t* from, float shading_of_row, std::uint8_t* to) const
-  {
-    constexpr float WHITE = 255.0F;
-    constexpr float TO_NEAREST = 0.5F;
-    const std::size_t bytes = gain.size();
-    for (std::size_t i = 0; i < bytes; ++i)
-    {
-      const float factor = along_row[i] + shading_of_row * gain[i];
-      const float value = factor * static_cast<float>(from[i]) + offset[i];
-      to[i] = static_cast<std::uint8_t>(std::clamp(value, 0.0F, WHITE) + TO_NEAREST);
-    }
-  }
-
   std::vector<float> gain;
   std::vector<float> along_row;
   std::vector<float> offset;
@@ -57,7 +44,9 @@ cv::Mat compensated(const cv::Mat& image, const ViewExposure& exposure)
   {
     const double v = (y - 0.5 * (image.rows - 1)) / half_diagonal;
     const double shading = v * (exposure.shading[1] + v * exposure.shading[2]);
-    factors.apply(image.ptr<std::uint8_t>(y), static_cast<float>(shading), result.ptr<std::uint8_t>(y));
+    const ExposureRow row = {factors.along_row.data(), factors.gain.data(), factors.offset.data(),
+                             static_cast<float>(shading)};
+    exposeBytes(image.ptr<std::uint8_t>(y), row, factors.gain.size(), result.ptr<std::uint8_t>(y));
   }
   return result;
 }

@@ -162,8 +162,8 @@ bool isClear(const ViewExposure& exposure, const std::vector<BrightnessPair>& pa
 
 ViewExposure fitExposure(const std::vector<BrightnessPair>& pairs, int channels)
 {
-  constexpr int ROUNDS = 4;
-  constexpr double KEPT_FRACTION_OF_ROUND = 0.85;
+  constexpr int ROUNDS = 3;
+  constexpr double KEPT_FRACTION_OF_ROUND = 0.8;
   ViewExposure exposure;
   if (pairs.size() < LEAST_PAIRS)
   {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "sweep_kernels.h"
+
 namespace light_field_depth
 {
 namespace
@@ -27,24 +29,16 @@ constexpr int RIVAL_DISTANCE = 3;
 
 void findWinnersIn(const CostVolume& volume, std::size_t first, std::size_t last, Winners& winners)
 {
+  const std::size_t count = last - first;
   for (int label = 0; label < volume.labels; ++label)
   {
-    const std::uint16_t* const cost = volume.cost(label);
-    for (std::size_t i = first; i < last; ++i)
-    {
-      const bool better = cost[i] < winners.cost[i];
-      winners.label[i] = better ? static_cast<std::uint16_t>(label) : winners.label[i];
-      winners.cost[i] = better ? cost[i] : winners.cost[i];
-    }
+    keepBest(volume.cost(label) + first, static_cast<std::uint16_t>(label), count, &winners.cost[first],
+             &winners.label[first]);
   }
   for (int label = 0; label < volume.labels; ++label)
   {
-    const std::uint16_t* const cost = volume.cost(label);
-    for (std::size_t i = first; i < last; ++i)
-    {
-      const bool apart = std::abs(label - winners.label[i]) >= RIVAL_DISTANCE;
-      winners.rival[i] = std::min(winners.rival[i], apart ? cost[i] : NO_COST);
-    }
+    keepRival(volume.cost(label) + first, static_cast<std::uint16_t>(label), &winners.label[first],
+              RIVAL_DISTANCE, count, &winners.rival[first]);
   }
 }
 
@@ -129,11 +123,7 @@ std::vector<std::uint16_t> leastCost(const CostVolume& volume, const LabelRange&
   std::vector<std::uint16_t> least(volume.area(), NO_COST);
   for (int label = range.first; label <= range.last; ++label)
   {
-    const std::uint16_t* const cost = volume.cost(label);
-    for (std::size_t i = 0; i < least.size(); ++i)
-    {
-      least[i] = std::min(least[i], cost[i]);
-    }
+    keepLeast(volume.cost(label), least.size(), least.data());
   }
   return least;
 }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <cstddef>
+#include <cstdint>
+
+#include "sweep_kernels.h"
 
 namespace light_field_depth
 {
@@ -12,6 +15,7 @@ constexpr int WINDOW_RADIUS = 2;
 constexpr int WINDOW_AREA = (2 * WINDOW_RADIUS + 1) * (2 * WINDOW_RADIUS + 1);
 constexpr int FRACTION_BITS = 5;
 constexpr int FRACTIONS = 1 << FRACTION_BITS;
+static_assert(FRACTIONS == BLEND_WEIGHTS, "fractions of a pixel are weights");
 
 /// A displacement split into whole pixels and 32nds.
 struct Shift
@@ -31,32 +35,6 @@ struct Shift
   int fraction;
 };
 
-void blend(const std::uint8_t* a, const std::uint8_t* b, int weight_b, int count, std::uint8_t* out)
-{
-  const int weight_a = FRACTIONS - weight_b;
-  for (int x = 0; x < count; ++x)
-  {
-    out[x] = static_cast<std::uint8_t>((a[x] * weight_a + b[x] * weight_b + FRACTIONS / 2) >> FRACTION_BITS);
-  }
-}
-
-void addDifferences(const std::uint8_t* a, const std::uint8_t* b, int count, std::uint16_t* sums)
-{
-  for (int x = 0; x < count; ++x)
-  {
-    const int difference = std::abs(a[x] - b[x]);
-    sums[x] = static_cast<std::uint16_t>(sums[x] + std::min(difference, SWEEP_TRUNCATION));
-  }
-}
-
-void addConstant(std::uint16_t value, int count, std::uint16_t* sums)
-{
-  for (int x = 0; x < count; ++x)
-  {
-    sums[x] = static_cast<std::uint16_t>(sums[x] + value);
-  }
-}
-
 /// The buffers of one label.
 class LabelSweeper
 {
@@ -64,8 +42,8 @@ public:
   explicit LabelSweeper(const PlaneSweep& sweep)
       : sweep_(sweep), width_(sweep.reference.cols), height_(sweep.reference.rows),
         sums_(sweep.reference.total()), columns_(static_cast<std::size_t>(width_) + 2 * WINDOW_RADIUS),
-        worst_(sums_.size()), row_a_(static_cast<std::size_t>(width_) + 1),
-        row_b_(static_cast<std::size_t>(width_) + 1)
+        nothing_(static_cast<std::size_t>(width_)), worst_(sums_.size()), row_a_(nothing_.size() + 1),
+        row_b_(row_a_.size())
   {
   }
 
@@ -75,14 +53,17 @@ public:
     std::fill(worst_.begin(), worst_.end(), std::uint16_t{0});
     for (const SweepArm& arm : sweep_.arms)
     {
-      std::fill(sums_.begin(), sums_.end(), std::uint16_t{0});
+      std::fill(sums_.begin(), sums_.end(), std::uint8_t{0});
       for (const SweepView& view : arm)
       {
         addView(view, sweep_.disparity(static_cast<float>(label)));
       }
       addArm(static_cast<int>(arm.size()), cost);
     }
-    dropWorst(cost);
+    if (sweep_.arms.size() > 1)
+    {
+      dropWorst(worst_.data(), static_cast<std::uint16_t>(sweep_.arms.size() - 1), sums_.size(), cost);
+    }
   }
 
 private:
@@ -92,38 +73,44 @@ private:
     const Shift shift_y(view.offset.y - disparity * view.steps.y);
     const int first = std::min(shift_x.first(), width_);
     const int last = std::max(shift_x.last(width_), first);
+    const auto count = static_cast<std::size_t>(last - first);
     for (int y = 0; y < height_; ++y)
     {
-      std::uint16_t* const sums = sums_.data() + static_cast<std::ptrdiff_t>(y) * width_;
-      if (y < shift_y.first() || y >= shift_y.last(height_))
+      std::uint8_t* const sums = sums_.data() + static_cast<std::ptrdiff_t>(y) * width_;
+      if (y < shift_y.first() || y >= shift_y.last(height_) || count == 0)
       {
-        addConstant(SWEEP_TRUNCATION, width_, sums);
+        addConstant(width_, sums);
         continue;
       }
-      addConstant(SWEEP_TRUNCATION, first, sums);
-      addConstant(SWEEP_TRUNCATION, width_ - last, sums + last);
+      addConstant(first, sums);
+      addConstant(width_ - last, sums + last);
       const std::uint8_t* const seen = sampleRow(view.image, y + shift_y.whole, first + shift_x.whole,
-                                                 shift_y.fraction, shift_x.fraction, last - first);
-      addDifferences(sweep_.reference.ptr<std::uint8_t>(y) + first, seen, last - first, sums + first);
+                                                 shift_y.fraction, shift_x.fraction, count);
+      addDifferences(sweep_.reference.ptr<std::uint8_t>(y) + first, seen, SWEEP_TRUNCATION, count,
+                     sums + first);
     }
   }
 
-  const std::uint8_t* sampleRow(const cv::Mat& image, int y, int x, int fraction_y, int fraction_x, int count)
+  /// For pixels that the view does not see.
+  static void addConstant(int count, std::uint8_t* sums)
+  {
+    std::for_each(sums, sums + count,
+                  [](std::uint8_t& sum) { sum = static_cast<std::uint8_t>(sum + SWEEP_TRUNCATION); });
+  }
+
+  const std::uint8_t* sampleRow(const cv::Mat& image, int y, int x, int fraction_y, int fraction_x,
+                                std::size_t count)
   {
     const std::uint8_t* row = image.ptr<std::uint8_t>(y) + x;
-    if (count <= 0)
-    {
-      return row;
-    }
     if (fraction_y != 0)
     {
-      blend(row, image.ptr<std::uint8_t>(y + 1) + x, fraction_y, count + (fraction_x != 0 ? 1 : 0),
-            row_a_.data());
+      blendBytes(row, image.ptr<std::uint8_t>(y + 1) + x, fraction_y, count + (fraction_x != 0 ? 1 : 0),
+                 row_a_.data());
       row = row_a_.data();
     }
     if (fraction_x != 0)
     {
-      blend(row, row + 1, fraction_x, count, row_b_.data());
+      blendBytes(row, row + 1, fraction_x, count, row_b_.data());
       row = row_b_.data();
     }
     return row;
@@ -132,70 +119,41 @@ private:
   /// Averages the sums of an arm over the window, adds them to the cost and keeps the largest.
   void addArm(int views, std::uint16_t* cost)
   {
-    const int scale = SWEEP_COST_PER_GREY_LEVEL * FRACTIONS * FRACTIONS / (views * WINDOW_AREA);
+    constexpr int WORD_RANGE = 1 << 16;
+    const auto factor =
+        static_cast<std::uint16_t>(SWEEP_COST_PER_GREY_LEVEL * WORD_RANGE / (views * WINDOW_AREA));
     std::fill(columns_.begin(), columns_.end(), std::uint16_t{0});
     std::uint16_t* const inner = columns_.data() + WINDOW_RADIUS;
-    for (int y = -WINDOW_RADIUS; y < WINDOW_RADIUS; ++y)
+    const auto width = static_cast<std::size_t>(width_);
+    for (int y = -WINDOW_RADIUS; y <= WINDOW_RADIUS; ++y)
     {
-      changeColumns(y, 1, inner);
+      slideColumns(sumsOfRow(y), nothing_.data(), width, inner);
     }
     for (int y = 0; y < height_; ++y)
     {
-      changeColumns(y + WINDOW_RADIUS, 1, inner);
+      if (y > 0)
+      {
+        slideColumns(sumsOfRow(y + WINDOW_RADIUS), sumsOfRow(y - WINDOW_RADIUS - 1), width, inner);
+      }
       std::fill(columns_.begin(), columns_.begin() + WINDOW_RADIUS, inner[0]);
       std::fill(columns_.end() - WINDOW_RADIUS, columns_.end(), inner[width_ - 1]);
-      addArmRow(scale, cost + static_cast<std::ptrdiff_t>(y) * width_,
-                worst_.data() + static_cast<std::ptrdiff_t>(y) * width_);
-      changeColumns(y - WINDOW_RADIUS, -1, inner);
+      const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * width_;
+      addWindows(columns_.data(), factor, width, cost + row, worst_.data() + row);
     }
   }
 
-  /// Adds (subtracts) a row to the sums over the window's rows; rows outside repeat the outermost.
-  void changeColumns(int y, int sign, std::uint16_t* inner) const
+  /// Rows outside repeat the outermost.
+  const std::uint8_t* sumsOfRow(int y) const
   {
-    const int inside = std::clamp(y, 0, height_ - 1);
-    const std::uint16_t* const row = sums_.data() + static_cast<std::ptrdiff_t>(inside) * width_;
-    for (int x = 0; x < width_; ++x)
-    {
-      inner[x] = static_cast<std::uint16_t>(inner[x] + sign * row[x]);
-    }
-  }
-
-  void addArmRow(int scale, std::uint16_t* total, std::uint16_t* worst) const
-  {
-    const std::uint16_t* const sums = columns_.data();
-    for (int x = 0; x < width_; ++x)
-    {
-      std::uint32_t window = 0;
-      for (int i = 0; i < 2 * WINDOW_RADIUS + 1; ++i)
-      {
-        window += sums[x + i];
-      }
-      const auto value =
-          static_cast<std::uint16_t>((window * static_cast<std::uint32_t>(scale)) >> (2 * FRACTION_BITS));
-      total[x] = static_cast<std::uint16_t>(total[x] + value);
-      worst[x] = std::max(worst[x], value);
-    }
-  }
-
-  void dropWorst(std::uint16_t* cost) const
-  {
-    const auto arms = static_cast<int>(sweep_.arms.size());
-    if (arms < 2)
-    {
-      return;
-    }
-    for (std::size_t i = 0; i < sums_.size(); ++i)
-    {
-      cost[i] = static_cast<std::uint16_t>((cost[i] - worst_[i]) / (arms - 1));
-    }
+    return sums_.data() + static_cast<std::ptrdiff_t>(std::clamp(y, 0, height_ - 1)) * width_;
   }
 
   const PlaneSweep& sweep_;
   int width_;
   int height_;
-  std::vector<std::uint16_t> sums_;
+  std::vector<std::uint8_t> sums_;  ///< over the views of an arm
   std::vector<std::uint16_t> columns_;
+  std::vector<std::uint8_t> nothing_;
   std::vector<std::uint16_t> worst_;
   std::vector<std::uint8_t> row_a_;
   std::vector<std::uint8_t> row_b_;
