@@ -15,6 +15,7 @@
 #include "light_field_depth/core/multiview/solver.h"
 #include "light_field_depth/core/multiview/upsampling.h"
 #include "light_field_depth/core/multiview/view_maps.h"
+#include "light_field_depth/core/noise_estimate.h"
 
 namespace light_field_depth
 {
@@ -220,7 +221,7 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
                     static_cast<float>(estimate.range.max * unit)};
   {
     const StageTimer timer(context, "noise");
-    adaptToNoise(multiview::measureNoise(chosen.reference().image), settings);
+    adaptToNoise(estimateNoise(chosen.reference().image), settings);
   }
   buffers_->solver.run(scaledSteps(chosen, unit), settings, context);
   buffers_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);

@@ -12,7 +12,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr int BLOCK_PX = 16;
+constexpr int BLOCK_PX = 8;
 constexpr int LEAST_SIDE_PX = 16;
 /// Between black and white, with room for noise on both sides.
 constexpr double DARKEST_LEVEL = 12.0;
@@ -134,7 +134,7 @@ float estimateNoise(const cv::Mat& image)
   }
   // E|mask| = 6 sigma sqrt(2 / pi) for white noise; the calmest tenth of the blocks is lower than the mean.
   constexpr double NORM_OF_MASK = 6.0;
-  constexpr double CALM_TO_MEAN = 1.09;
+  constexpr double CALM_TO_MEAN = 1.23;
   constexpr double VARIANCE_OF_ROUNDING = 1.0 / 12.0;
   double sum = 0.0;
   for (const std::vector<Block>& blocks : measureBlocks(image))

@@ -9,8 +9,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/error.h"
-#include "light_field_depth/core/multiview/noise.h"
 #include "light_field_depth/core/multiview_estimator.h"
+#include "light_field_depth/core/noise_estimate.h"
 #include "support/named_scenes.h"
 #include "support/synthetic_scene.h"
 
@@ -162,7 +162,7 @@ TEST(MultiviewEstimator, MeasuresNoiseAndWithstandsIt)
   {
     settings.noise_sigma = sigma;
     const auto input = standardLightField(settings);
-    const float measured = multiview::measureNoise(input.light_field.reference().image);
+    const float measured = estimateNoise(input.light_field.reference().image);
     EXPECT_NEAR(measured, sigma, 0.2 * sigma + 1.0);
     const auto result = estimate(input.light_field, STANDARD_RANGE);
     EXPECT_LT(testing::meanAbsoluteError(result.disparity, input.truth), 0.03 + 0.012 * sigma)
