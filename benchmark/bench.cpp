@@ -10,6 +10,7 @@
 #include "ablation.h"
 #include "kernel_benchmark.h"
 #include "light_fields.h"
+#include "profile.h"
 #include "report_files.h"
 #include "scaling.h"
 
@@ -25,12 +26,13 @@ struct Measurement
 };
 
 /// The first one is taken when none is named.
-constexpr std::array<Measurement, 4> MEASUREMENTS = {{
+constexpr std::array<Measurement, 5> MEASUREMENTS = {{
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
     {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
     {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
     {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
+    {"--profile", "where the time of a frame goes, and what the machine could do in it", profileFrame},
 }};
 
 void declare(CLI::App& app, Settings& settings)

@@ -1,0 +1,124 @@
+#include "stage_work.h"
+
+#include "light_field_depth/core/multiview/edge_aware_smoothing.h"
+
+namespace light_field_depth::benchmark
+{
+namespace
+{
+constexpr double FLOAT = 4.0;   // bytes
+constexpr double WORD = 2.0;    // bytes
+constexpr double PLANAR = 3.0;  // bytes of a pixel, three channels in planes
+constexpr double PACKED = 4.0;  // bytes of a pixel for single samples
+
+StageWork prepare(const FrameSize& frame)
+{
+  const double per_view = frame.channels + PLANAR + frame.channels + PACKED;  // two copies of each view
+  return {"prepare", frame.pixels * (frame.views * per_view + frame.channels + PLANAR), 0.0, Lane::None};
+}
+
+StageWork cost(const FrameSize& frame)
+{
+  // Of each channel |a - b| is two subtractions and an or; two sums, a minimum, and the sum of the arm.
+  const double operations = 4.0 * frame.channels + 1.0;
+  return {"cost", frame.pixels * (PLANAR * (frame.views + 1.0) + frame.labels),
+          frame.pixels * frame.labels * frame.views * operations, Lane::Byte};
+}
+
+StageWork visibleCost(const FrameSize& frame)
+{
+  const double operations = 4.0 * frame.channels + 6.0;  // also: is it hidden, mask and count
+  const double bytes = PLANAR * (frame.views + 1.0) + frame.views + frame.labels;
+  return {"visible cost", frame.visibility_passes * frame.pixels * bytes,
+          frame.visibility_passes * frame.pixels * frame.labels * frame.views * operations, Lane::Byte};
+}
+
+StageWork visibility(const FrameSize& frame)
+{
+  // Each view reads the disparity, clears its surface, writes to it, and closes gaps.
+  constexpr double bytes = FLOAT + 1.0 + 1.0 + 2.0;
+  constexpr double operations = 10.0;
+  return {"visibility", frame.visibility_passes * frame.pixels * frame.views * bytes,
+          frame.visibility_passes * frame.pixels * frame.views * operations, Lane::Float};
+}
+
+StageWork aggregate(const FrameSize& frame)
+{
+  // Rows: cost read, sums written. Columns down and up: cost read, sums read and written; the steps of P2 are
+  // written once and read by each. The result is written.
+  const double volume = frame.labels * ((1.0 + WORD) + 2.0 * (1.0 + 2.0 * WORD));
+  const double steps = PLANAR + 2.0 * WORD + 3.0 * WORD;
+  constexpr double paths = 4.0;
+  constexpr double per_path = 8.0;  // see pathStep()
+  constexpr double selection = 3.0;
+  const double passes = 1.0 + frame.visibility_passes;
+  return {"aggregate", passes * frame.pixels * (volume + steps + FLOAT),
+          passes * frame.pixels * frame.labels * (paths * per_path + selection), Lane::Word};
+}
+
+StageWork median(const FrameSize& frame)
+{
+  const double passes = 1.0 + frame.visibility_passes;
+  return {"median", passes * frame.pixels * 4.0 * FLOAT, 0.0, Lane::None};
+}
+
+StageWork linearize(const FrameSize& frame)
+{
+  constexpr double results = 4.0 * FLOAT;
+  // Position and weights; four taps of three channels, unpacked, times weight; difference to the reference
+  // and share of the mean; the moments.
+  constexpr double per_view = 22.0 + 4.0 * 17.0 + 18.0 + 25.0;
+  return {"linearize", frame.refinements * frame.pixels * (PACKED * frame.views + PLANAR + FLOAT + results),
+          frame.refinements * frame.pixels * frame.views * per_view, Lane::Float};
+}
+
+StageWork smooth(const FrameSize& frame)
+{
+  const multiview::SmoothingSettings settings;
+  constexpr double link_bytes = FLOAT * (1.0 + 2.0 + 2.0);  // disparity and guides read, links written
+  constexpr double link_operations = 14.0;
+  // Rows of either parity: weight, target, left links; upper links twice; other rows read, rows written.
+  constexpr double row_bytes = FLOAT * (3.0 + 2.0 + 1.0 + 1.0);
+  // Forth: weight, target, links, disparity read, factors written; back: factors read, disparity written.
+  constexpr double column_bytes = FLOAT * (5.0 + 2.0 + 2.0 + 1.0);
+  constexpr double line_operations = 24.0;
+  const double runs = frame.refinements * settings.reweightings;
+  return {"smooth",
+          frame.pixels *
+              (runs * (link_bytes + settings.sweeps * (row_bytes + column_bytes)) + PLANAR + 2.0 * FLOAT),
+          frame.pixels * runs * (link_operations + settings.sweeps * 2.0 * line_operations), Lane::Float};
+}
+
+StageWork confidence(const FrameSize& frame)
+{
+  constexpr double maps = 8.0;          // seven read, one written
+  constexpr double operations = 100.0;  // mostly smallest and largest of 3 x 3 and 5 x 5 pixels
+  return {"confidence", frame.pixels * maps * FLOAT, frame.pixels * operations, Lane::Float};
+}
+
+/// Stages that look at every pixel of every view once.
+StageWork lookAtViews(const char* stage, const FrameSize& frame)
+{
+  return {stage, frame.pixels * frame.channels * (frame.views + 1.0), 0.0, Lane::None};
+}
+
+}  // namespace
+
+std::vector<StageWork> stageWork(const FrameSize& frame)
+{
+  return {lookAtViews("exposure", frame),
+          lookAtViews("range", frame),
+          {"noise", frame.pixels * frame.channels, 0.0, Lane::None},
+          prepare(frame),
+          cost(frame),
+          aggregate(frame),
+          median(frame),
+          visibility(frame),
+          visibleCost(frame),
+          {"edge sides", frame.pixels * (2.0 * FLOAT + PLANAR), 0.0, Lane::None},
+          linearize(frame),
+          smooth(frame),
+          confidence(frame)};
+}
+
+}  // namespace light_field_depth::benchmark

@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""Puts the tables that the benchmark wrote into the documents that show them.
+
+A document marks the place by two lines of its own,
+    <!-- benchmark/results/NAME.md -->
+    <!-- end of table -->
+and whatever stands between them is replaced by that file. Places whose file does not exist stay as they are.
+"""
+
+import pathlib
+import re
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+DOCUMENTS = ("README.md", "docs/experiments.md", "docs/performance.md")
+PLACE = re.compile(r"(<!-- (benchmark/results/\w+\.md) -->\n).*?(<!-- end of table -->\n)", re.DOTALL)
+
+
+def with_table(place):
+    begin, name, end = place.groups()
+    table = TOP / name
+    if not table.exists():
+        return place.group(0)
+    return begin + "\n" + table.read_text(encoding="utf-8") + "\n" + end
+
+
+def main():
+    for name in DOCUMENTS:
+        document = TOP / name
+        before = document.read_text(encoding="utf-8")
+        after = PLACE.sub(with_table, before)
+        if after != before:
+            document.write_text(after, encoding="utf-8")
+            print("tables renewed: " + name)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
