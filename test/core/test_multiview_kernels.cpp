@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 #include "light_field_depth/core/multiview/path_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
+#include "light_field_depth/core/multiview/visibility_kernels.h"
 
 namespace light_field_depth::multiview
 {
@@ -48,6 +50,25 @@ template <typename Values>
 Values firstPart(const Values& values, std::size_t count)
 {
   return Values(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+TEST(MultiviewKernels, WarpTargetsEqualThePlainVersion)
+{
+  Random random;
+  const auto disparity = random.floats(WIDTH, -3.0F, 3.0F);
+  for (const float step_y : {0.0F, -2.5F})
+  {
+    const WarpRow row{disparity.data(), WIDTH, 24, 3.0F, step_y, 0.8F, 2.5F, 256, 8};
+    std::vector<std::int32_t> simd(WIDTH);
+    std::vector<std::int32_t> plain(WIDTH);
+    warpTargets(row, simd.data());
+    warpTargetsPlain(row, plain.data());
+    EXPECT_EQ(simd, plain);
+    EXPECT_NE(std::count(plain.begin(), plain.end(), 0), 0);
+    const auto column = static_cast<int>(std::floor(100.8F - 3.0F * disparity[100]));
+    const auto line = static_cast<int>(std::floor(2.5F - step_y * disparity[100]));
+    EXPECT_EQ(plain[100], line >= 0 && line < 24 ? line * 256 + column + 8 : 0);
+  }
 }
 
 TEST(MultiviewKernels, InterpolationEqualsThePlainVersion)

@@ -11,6 +11,10 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int MAX_LABELS = 240;
+/// A later search tries the labels that the one before found within so many pixels of a tile, and so many
+/// more.
+constexpr int BAND_REACH_PX = 8;
+constexpr float BAND_MARGIN_LABELS = 4.0F;
 constexpr int MEDIAN_SIZE = 5;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
@@ -81,6 +85,7 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
   {
     {
       const StageTimer timer(context, "visibility");
+      bands_.setAround(disparity_, labels_, BAND_REACH_PX, BAND_MARGIN_LABELS, context.pool);
       surfaces_.warp(disparity_, views_, labels_, context.pool);
     }
     {

@@ -31,8 +31,8 @@ public:
   const std::uint8_t* row(int view, int y) const;
 
 private:
-  void warpInto(const cv::Mat& disparity, const PreparedView& view, const LabelSpace& labels,
-                std::uint8_t* surface) const;
+  void quantize(const cv::Mat& disparity, const LabelSpace& labels, ThreadPool& pool);
+  void warpInto(const cv::Mat& disparity, const PreparedView& view, std::uint8_t* surface) const;
   void closeGaps(const PreparedView& view, std::uint8_t* surface) const;
 
   int width_ = 0;
@@ -40,6 +40,7 @@ private:
   int pad_ = 0;
   std::size_t pitch_ = 0;
   std::size_t view_stride_ = 0;
+  std::vector<std::uint8_t> quantized_;  // the map in the units of the surfaces
   std::vector<std::uint8_t> values_;
   std::vector<std::uint8_t> outside_;
 };
