@@ -1,5 +1,6 @@
 #include "kernels.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -24,7 +25,7 @@ constexpr std::size_t CHANNELS = 3;
 constexpr std::size_t VIEWS = 16;
 constexpr int LABELS = 32;
 constexpr std::size_t ENTRIES = PIXELS * LABELS;
-constexpr std::size_t STATE_STRIDE = LABELS + 2 * STATE_GUARD;
+constexpr std::size_t TILE_ENTRIES = static_cast<std::size_t>(TILE_PX) * TILE_PX * LABELS;
 
 std::vector<std::uint8_t> randomBytes(std::size_t count, int limit)
 {
@@ -123,80 +124,68 @@ Kernel visibleCost()
           with(visibleCostRowPlain)};
 }
 
-Kernel transposition()
-{
-  struct Costs
-  {
-    std::vector<std::uint8_t> cost = randomBytes(LABELS * STRIDE, FULL_COST);
-    std::vector<std::uint8_t> volume = std::vector<std::uint8_t>(ENTRIES);
-  };
-  const auto costs = std::make_shared<Costs>();
-  const auto with = [&](auto kernel)
-  {
-    return calling(costs, [kernel](Costs& data)
-                   { kernel(data.cost.data(), STRIDE, LABELS, WIDTH, data.volume.data()); });
-  };
-  return {"labels together",        "entry", ENTRIES, 2.0 * ENTRIES, with(transposeCosts),
-          with(transposeCostsPlain)};
-}
-
-/// One row of a cost volume, and the states of the vertical paths.
+/// One tile of a cost volume, and the states of its paths.
 struct PathData
 {
-  std::vector<std::uint8_t> cost = randomBytes(ENTRIES, FULL_COST);
-  std::vector<std::uint16_t> sums = std::vector<std::uint16_t>(ENTRIES);
-  std::vector<std::uint16_t> p2 = std::vector<std::uint16_t>(PIXELS, 500);
-  std::vector<std::uint16_t> before = std::vector<std::uint16_t>(PIXELS * STATE_STRIDE, STATE_GUARD_VALUE);
-  std::vector<std::uint16_t> after = before;
-  std::vector<std::uint16_t> minima = std::vector<std::uint16_t>(PIXELS);
-  std::vector<float> best = std::vector<float>(PIXELS);
-  PathRow row;
+  std::vector<std::uint8_t> cost = randomBytes(TILE_ENTRIES, FULL_COST);
+  std::vector<std::uint8_t> transposed = std::vector<std::uint8_t>(TILE_ENTRIES);
+  std::vector<std::uint16_t> sums = std::vector<std::uint16_t>(TILE_ENTRIES);
+  std::vector<std::uint16_t> p2 = std::vector<std::uint16_t>(TILE_PX, 500);
+  std::vector<std::uint16_t> state = std::vector<std::uint16_t>((LABELS + 2) * TILE_PX, NO_STATE);
+  std::array<std::uint16_t, TILE_PX> minima{};
+  std::array<float, TILE_PX> best{};
+  PathTile tile;
 
   PathData()
   {
-    row.cost = cost.data();
-    row.sums = sums.data();
-    row.width = WIDTH;
-    row.pitch = LABELS;
-    row.p1 = 30;
-    row.p2 = p2.data();
-    aggregateRow(row, before.data());
-    aggregateStep(row, true, nullptr, before.data(), minima.data());
+    std::fill(state.begin() + TILE_PX, state.end() - TILE_PX, std::uint16_t{0});
+    tile.cost = cost.data();
+    tile.sums = sums.data();
+    tile.labels = LABELS;
+    tile.p1 = 30;
+    tile.p2 = p2.data();
+    tile.state = state.data() + TILE_PX;
+    tile.minima = minima.data();
   }
 };
 
-Kernel rowPaths()
-{
-  const auto paths = std::make_shared<PathData>();
-  const auto with = [&](auto kernel)
-  { return calling(paths, [kernel](PathData& data) { kernel(data.row, data.after.data()); }); };
-  // Cost read by both paths; sums written by one and read and written by the other.
-  return {"paths along a row", "entry x path",     2.0 * ENTRIES,
-          8.0 * ENTRIES,       with(aggregateRow), with(aggregateRowPlain)};
-}
-
-Kernel columnPaths()
+Kernel transposition()
 {
   const auto paths = std::make_shared<PathData>();
   const auto with = [&](auto kernel)
   {
-    return calling(paths, [kernel](PathData& data)
-                   { kernel(data.row, false, data.before.data(), data.after.data(), data.minima.data()); });
+    return calling(paths,
+                   [kernel](PathData& data) { kernel(data.cost.data(), LABELS, data.transposed.data()); });
   };
-  // Cost, sums read and written, states read and written.
-  return {"step of the column paths", "entry x path",          ENTRIES, 9.0 * ENTRIES,
-          with(aggregateStep),        with(aggregateStepPlain)};
+  using Kernel8 = void (*)(const std::uint8_t*, int, std::uint8_t*);
+  return {"tile turned over",
+          "entry",
+          TILE_ENTRIES,
+          2.0 * TILE_ENTRIES,
+          with(static_cast<Kernel8>(transposeTile)),
+          with(static_cast<Kernel8>(transposeTilePlain))};
+}
+
+Kernel tilePaths()
+{
+  const auto paths = std::make_shared<PathData>();
+  const auto with = [&](auto kernel)
+  { return calling(paths, [kernel](PathData& data) { kernel(data.tile); }); };
+  // Cost, sums written, states read and written.
+  return {"paths through a tile", "entry x path",      TILE_ENTRIES,
+          7.0 * TILE_ENTRIES,     with(aggregateTile), with(aggregateTilePlain)};
 }
 
 Kernel labelSelection()
 {
+  constexpr std::size_t entries = static_cast<std::size_t>(TILE_PX) * LABELS;
   const auto paths = std::make_shared<PathData>();
   const auto with = [&](auto kernel)
   {
-    return calling(paths, [kernel](PathData& data)
-                   { kernel(data.sums.data(), WIDTH, LABELS - 3, LABELS, data.best.data()); });
+    return calling(paths,
+                   [kernel](PathData& data) { kernel(data.sums.data(), LABELS, 0, data.best.data()); });
   };
-  return {"best label", "entry", ENTRIES, 2.0 * ENTRIES, with(selectLabels), with(selectLabelsPlain)};
+  return {"best label", "entry", entries, 2.0 * entries, with(selectLabels), with(selectLabelsPlain)};
 }
 
 /// One tile of a row, with views on a cross.
@@ -288,8 +277,8 @@ Kernel halving()
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(), armCost(),        visibleCost(),   transposition(), rowPaths(),
-          columnPaths(),   labelSelection(), linearization(), halving()};
+  return {interpolation(), armCost(),        visibleCost(),   transposition(),
+          tilePaths(),     labelSelection(), linearization(), halving()};
 }
 
 }  // namespace light_field_depth::benchmark

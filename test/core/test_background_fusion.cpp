@@ -23,7 +23,9 @@ class BackgroundFusionTest : public ::testing::Test
 protected:
   void SetUp() override
   {
-    volume_.create(WIDTH, HEIGHT, LABELS);
+    LabelBands bands;
+    bands.setAll(WIDTH, HEIGHT, LABELS);
+    volume_.create(WIDTH, HEIGHT, bands);
     cv::Mat image(HEIGHT, WIDTH, CV_8UC1, cv::Scalar(90));
     preparePlanar(image, {}, 4, guide_);
     first_search_ = cv::Mat(HEIGHT, WIDTH, CV_32FC1, cv::Scalar(labels_.disparity(BACKGROUND)));
@@ -38,12 +40,12 @@ protected:
     {
       for (int x = 0; x < WIDTH; ++x)
       {
-        std::uint8_t* const costs = volume_.values.data() + volume_.rowOffset(y) + x * volume_.pitch;
-        const int label = STRAY.contains({x, y}) ? stray_label : BACKGROUND;
-        std::fill(costs, costs + LABELS, std::uint8_t{label < 0 ? std::uint8_t{20} : std::uint8_t{60}});
-        if (label >= 0)
+        const int right = STRAY.contains({x, y}) ? stray_label : BACKGROUND;
+        for (int label = 0; label < LABELS; ++label)
         {
-          costs[label] = 0;
+          const int wrong_cost = right < 0 ? 20 : 60;
+          volume_.values[volume_.index(x, y, label)] =
+              static_cast<std::uint8_t>(label == right ? 0 : wrong_cost);
         }
       }
     }
@@ -53,7 +55,8 @@ protected:
   {
     const PathSettings paths;
     cv::Mat labels;
-    aggregator_.aggregate(volume_, guide_, paths, pool_, labels);
+    aggregator_.setGuide(guide_, paths, pool_);
+    aggregator_.aggregate(volume_, paths, pool_, labels);
     cv::Mat disparity = first_search_.clone();
     fusion_.prepare(labels_, disparity, {}, pool_, volume_);
     fusion_.fuse(volume_, aggregator_, paths, background_map_, disparity);
@@ -86,10 +89,9 @@ TEST_F(BackgroundFusionTest, TheChargeGrowsFromTheFloor)
 {
   fill(-1);
   fused();
-  const std::uint8_t* const costs = volume_.values.data() + volume_.rowOffset(30) + 90 * volume_.pitch;
-  EXPECT_EQ(costs[BACKGROUND], 20);
-  EXPECT_EQ(costs[BACKGROUND + 2], 23);
-  EXPECT_EQ(costs[BACKGROUND + 10], 35);
+  EXPECT_EQ(volume_.at(90, 30, BACKGROUND), 20);
+  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 2), 23);
+  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 10), 35);
 }
 
 TEST_F(BackgroundFusionTest, LaterSearchesAreHeldWhereItMoved)
@@ -98,12 +100,10 @@ TEST_F(BackgroundFusionTest, LaterSearchesAreHeldWhereItMoved)
   fused();
   fill(-1);
   fusion_.hold(pool_, volume_);
-  const auto cost = [&](int x, int label)
-  { return volume_.values[volume_.rowOffset(30) + static_cast<std::size_t>(x * volume_.pitch + label)]; };
-  EXPECT_EQ(cost(90, BACKGROUND + 3), 20);
-  EXPECT_EQ(cost(90, BACKGROUND + 6), 26);
-  EXPECT_EQ(cost(90, LABELS - 1), 40);
-  EXPECT_EQ(cost(20, LABELS - 1), 60);
+  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 3), 20);
+  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 6), 26);
+  EXPECT_EQ(volume_.at(90, 30, LABELS - 1), 40);
+  EXPECT_EQ(volume_.at(20, 30, LABELS - 1), 60);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 
 #include "light_field_depth/core/multiview/cost_kernels.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
-#include "light_field_depth/core/multiview/path_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
 #include "light_field_depth/core/multiview/visibility_kernels.h"
 
@@ -190,100 +189,6 @@ TEST(MultiviewKernels, VisibleCostEqualsThePlainVersion)
       EXPECT_EQ(firstPart(simd, WIDTH), firstPart(plain, WIDTH)) << truncation << ", " << hidden_above;
     }
   }
-}
-
-TEST(MultiviewKernels, TransposedCostsEqualThePlainVersion)
-{
-  Random random;
-  const int labels = 48;
-  const int width = 64;
-  const auto cost = random.bytes(labels * STRIDE);
-  std::vector<std::uint8_t> simd(static_cast<std::size_t>(labels * width));
-  std::vector<std::uint8_t> plain(simd.size());
-  transposeCosts(cost.data(), STRIDE, labels, width, simd.data());
-  transposeCostsPlain(cost.data(), STRIDE, labels, width, plain.data());
-  EXPECT_EQ(simd, plain);
-  EXPECT_EQ(simd[5 * labels + 7], cost[7 * STRIDE + 5]);
-}
-
-struct Paths
-{
-  explicit Paths(int pitch, Random& random)
-      : cost(random.bytes(static_cast<std::size_t>(WIDTH * pitch), 241)), p2(WIDTH)
-  {
-    for (std::size_t x = 0; x < p2.size(); ++x)
-    {
-      p2[x] = static_cast<std::uint16_t>(45 + x * 5 % 1150);
-    }
-    row.cost = cost.data();
-    row.width = WIDTH;
-    row.pitch = pitch;
-    row.p1 = 30;
-    row.p2 = p2.data();
-  }
-  std::vector<std::uint8_t> cost;
-  std::vector<std::uint16_t> p2;
-  PathRow row;
-};
-
-TEST(MultiviewKernels, RowAggregationEqualsThePlainVersion)
-{
-  for (const int width : {WIDTH, WIDTH - 1})
-  {
-    for (const int pitch : {16, 64})
-    {
-      Random random;
-      Paths paths(pitch, random);
-      paths.row.width = width;
-      std::vector<std::uint16_t> states(static_cast<std::size_t>(4 * (pitch + 2 * STATE_GUARD)),
-                                        STATE_GUARD_VALUE);
-      auto plain_states = states;
-      std::vector<std::uint16_t> simd(paths.cost.size());
-      std::vector<std::uint16_t> plain(paths.cost.size());
-      paths.row.sums = simd.data();
-      aggregateRow(paths.row, states.data());
-      paths.row.sums = plain.data();
-      aggregateRowPlain(paths.row, plain_states.data());
-      EXPECT_EQ(simd, plain) << "width " << width << ", pitch " << pitch;
-    }
-  }
-}
-
-TEST(MultiviewKernels, ColumnAggregationEqualsThePlainVersion)
-{
-  constexpr int pitch = 32;
-  constexpr int labels = 27;
-  Random random;
-  Paths paths(pitch, random);
-  for (std::size_t i = 0; i < paths.cost.size(); ++i)
-  {
-    paths.cost[i] = i % pitch < labels ? paths.cost[i] : PADDING_COST;
-  }
-  const std::size_t state_size = static_cast<std::size_t>(WIDTH) * (pitch + 2 * STATE_GUARD);
-  std::array<std::vector<std::uint16_t>, 2> simd_states;
-  simd_states.fill(std::vector<std::uint16_t>(state_size, STATE_GUARD_VALUE));
-  auto plain_states = simd_states;
-  std::vector<std::uint16_t> simd_minima(WIDTH);
-  std::vector<std::uint16_t> plain_minima(WIDTH);
-  std::vector<std::uint16_t> simd(paths.cost.size(), 3);
-  auto plain = simd;
-  for (std::size_t step = 0; step < 3; ++step)
-  {
-    const std::size_t after = (step + 1) % 2;
-    paths.row.sums = simd.data();
-    aggregateStep(paths.row, step == 0, simd_states[step % 2].data(), simd_states[after].data(),
-                  simd_minima.data());
-    paths.row.sums = plain.data();
-    aggregateStepPlain(paths.row, step == 0, plain_states[step % 2].data(), plain_states[after].data(),
-                       plain_minima.data());
-  }
-  EXPECT_EQ(simd, plain);
-  EXPECT_EQ(simd_minima, plain_minima);
-  std::vector<float> simd_best(WIDTH);
-  std::vector<float> plain_best(WIDTH);
-  selectLabels(simd.data(), WIDTH, labels, pitch, simd_best.data());
-  selectLabelsPlain(plain.data(), WIDTH, labels, pitch, plain_best.data());
-  EXPECT_EQ(simd_best, plain_best);
 }
 
 /// Views in three directions with random pixels, sampled by both versions of the kernel.

@@ -12,7 +12,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-constexpr int BLOCK_PX = 64;
+constexpr int BLOCK_PX = 2 * TILE_PX;
 constexpr int ROWS_PER_CHUNK = 16;
 /// With fewer believed pixels about a block nothing is charged there.
 constexpr int MIN_BELIEVED = 30;
@@ -20,23 +20,35 @@ constexpr int MIN_BELIEVED = 30;
 constexpr int SUPPORT_DISTANCE = 2;
 constexpr std::int16_t NONE = -1;
 
-const std::uint8_t* costsAt(const CostVolume& volume, int x, int y)
+/// The cost between two labels of the pixel's band.
+float interpolatedCost(const CostVolume& volume, int x, int y, float label)
 {
-  return volume.values.data() + volume.rowOffset(y) +
-         static_cast<std::size_t>(x) * static_cast<std::size_t>(volume.pitch);
-}
-
-std::uint8_t* costsAt(CostVolume& volume, int x, int y)
-{
-  return const_cast<std::uint8_t*>(costsAt(std::as_const(volume), x, y));
-}
-
-float interpolatedCost(const std::uint8_t* costs, float label, int labels)
-{
-  const float inside = std::clamp(label, 0.0F, static_cast<float>(labels - 1));
-  const int below = std::min(static_cast<int>(inside), labels - 2);
+  const LabelBand& band = volume.bandAt(x, y);
+  if (band.count == 1)
+  {
+    return volume.at(x, y, band.first);
+  }
+  const float inside = std::clamp(label, static_cast<float>(band.first), static_cast<float>(band.end() - 1));
+  const int below = std::min(static_cast<int>(inside), band.end() - 2);
   const float part = inside - static_cast<float>(below);
-  return static_cast<float>(costs[below]) * (1.0F - part) + static_cast<float>(costs[below + 1]) * part;
+  const std::size_t index = volume.index(x, y, below);
+  return static_cast<float>(volume.values[index]) * (1.0F - part) +
+         static_cast<float>(volume.values[index + TILE_PX]) * part;
+}
+
+/// Whether a label and those that it is compared with are in the bands of 3 x 3 pixels.
+bool isComparable(const CostVolume& volume, int x, int y, int label)
+{
+  if (x < 1 || y < 1 || x + 1 >= volume.width || y + 1 >= volume.height)
+  {
+    return false;
+  }
+  const auto holds = [&](int at_x, int at_y)
+  {
+    const LabelBand& band = volume.bandAt(at_x, at_y);
+    return band.contains(label - SUPPORT_DISTANCE) && band.contains(label + SUPPORT_DISTANCE);
+  };
+  return holds(x - 1, y - 1) && holds(x + 1, y - 1) && holds(x - 1, y + 1) && holds(x + 1, y + 1);
 }
 
 /// The mean over 3 x 3 pixels of how much worse the labels on both sides are.
@@ -47,18 +59,26 @@ float support(const CostVolume& volume, int x, int y, int label)
   {
     for (int dx = -1; dx <= 1; ++dx)
     {
-      const std::uint8_t* const costs = costsAt(volume, x + dx, y + dy) + label;
-      sum += costs[-SUPPORT_DISTANCE] + costs[SUPPORT_DISTANCE] - 2 * costs[0];
+      const auto cost = [&](int other) { return static_cast<int>(volume.at(x + dx, y + dy, other)); };
+      sum += cost(label - SUPPORT_DISTANCE) + cost(label + SUPPORT_DISTANCE) - 2 * cost(label);
     }
   }
   return static_cast<float>(sum) / 18.0F;
 }
 
-void addSaturated(const std::vector<std::uint8_t>& charge, std::uint8_t* costs)
+/// Adds a charge, which begins with label 0, to the costs of a pixel and `count - 1` more on its right in
+/// the same tile.
+void addSaturated(const std::vector<std::uint8_t>& charge, int x, int y, int count, CostVolume& volume)
 {
-  for (std::size_t label = 0; label < charge.size(); ++label)
+  const LabelBand& band = volume.bandAt(x, y);
+  std::uint8_t* costs = volume.values.data() + volume.index(x, y, band.first);
+  for (int label = band.first; label < band.end(); ++label, costs += TILE_PX)
   {
-    costs[label] = static_cast<std::uint8_t>(std::min(costs[label] + charge[label], 255));
+    const int added = charge[static_cast<std::size_t>(label)];
+    for (int i = 0; i < count; ++i)
+    {
+      costs[i] = static_cast<std::uint8_t>(std::min(costs[i] + added, 255));
+    }
   }
 }
 
@@ -141,14 +161,14 @@ void BackgroundFusion::chargeBlock(int block_x, int block_y, CostVolume& volume)
   {
     return;
   }
-  const auto charge = ramp(volume.labels, floor, settings_.bias_per_label, settings_.max_bias);
+  const auto charge = ramp(volume.bands.labels(), floor, settings_.bias_per_label, settings_.max_bias);
   const int last_x = std::min((block_x + 1) * BLOCK_PX, volume.width);
   const int last_y = std::min((block_y + 1) * BLOCK_PX, volume.height);
   for (int y = block_y * BLOCK_PX; y < last_y; ++y)
   {
-    for (int x = block_x * BLOCK_PX; x < last_x; ++x)
+    for (int x = block_x * BLOCK_PX; x < last_x; x += TILE_PX)
     {
-      addSaturated(charge, costsAt(volume, x, y));
+      addSaturated(charge, x, y, std::min(TILE_PX, last_x - x), volume);
     }
   }
 }
@@ -161,10 +181,9 @@ void BackgroundFusion::findFloors(const CostVolume& volume, ThreadPool& pool)
   const auto believed = [&](int x, int y)
   {
     const int label = cvRound(label_.at<float>(y, x));
-    const bool inside = x > 0 && y > 0 && x + 1 < volume.width && y + 1 < volume.height &&
-                        label >= SUPPORT_DISTANCE && label + SUPPORT_DISTANCE < volume.labels;
-    return inside && support(volume, x, y, label) > settings_.min_support ? static_cast<std::int16_t>(label)
-                                                                          : NONE;
+    return isComparable(volume, x, y, label) && support(volume, x, y, label) > settings_.min_support
+               ? static_cast<std::int16_t>(label)
+               : NONE;
   };
   pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
                    [&](int first, int last)
@@ -173,15 +192,14 @@ void BackgroundFusion::findFloors(const CostVolume& volume, ThreadPool& pool)
                      {
                        for (int x = 0; x < volume.width; ++x)
                        {
-                         data_cost_.at<float>(y, x) =
-                             interpolatedCost(costsAt(volume, x, y), label_.at<float>(y, x), volume.labels);
+                         data_cost_.at<float>(y, x) = interpolatedCost(volume, x, y, label_.at<float>(y, x));
                          supported_.at<std::int16_t>(y, x) = believed(x, y);
                        }
                      }
                    });
   floor_.create((volume.height + BLOCK_PX - 1) / BLOCK_PX, (volume.width + BLOCK_PX - 1) / BLOCK_PX,
                 CV_16SC1);
-  chooseFloors(volume.labels);
+  chooseFloors(volume.bands.labels());
 }
 
 void BackgroundFusion::chooseFloors(int labels)
@@ -273,7 +291,7 @@ void BackgroundFusion::addData(const CostVolume& volume, const cv::Mat& backgrou
       if (region != 0)
       {
         const float label = labels_.label(background.at<float>(y, x));
-        const float cost = interpolatedCost(costsAt(volume, x, y), label, volume.labels);
+        const float cost = interpolatedCost(volume, x, y, label);
         ++regions[region].pixels;
         regions[region].kept.data += data_cost_.at<float>(y, x);
         regions[region].moved.data += cost - biasAt(x, y, label);
@@ -329,9 +347,9 @@ void BackgroundFusion::hold(ThreadPool& pool, CostVolume& volume) const
                          if (label != NONE)
                          {
                            const auto free_up_to = static_cast<float>(label + settings_.hold_slack);
-                           addSaturated(
-                               ramp(volume.labels, free_up_to, settings_.hold_per_label, settings_.max_hold),
-                               costsAt(volume, x, y));
+                           addSaturated(ramp(volume.bands.labels(), free_up_to, settings_.hold_per_label,
+                                             settings_.max_hold),
+                                        x, y, 1, volume);
                          }
                        }
                      }

@@ -31,12 +31,6 @@ void visibleCostRowSimd(const VisibleCostRow& row, std::uint8_t* cost)
 {
   visibleCostRowPlain(row, cost);
 }
-
-void transposeCostsSimd(const std::uint8_t* cost, std::size_t cost_stride, int labels, int width,
-                        std::uint8_t* volume)
-{
-  transposeCostsPlain(cost, cost_stride, labels, width, volume);
-}
 #else
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -223,52 +217,6 @@ void visibleCostRowSimd(const VisibleCostRow& row, std::uint8_t* cost)
   }
 }
 
-/// 16 x 16 bytes: source rows `source_stride` apart, target rows `target_stride` apart.
-HWY_INLINE void transposeBlock(const std::uint8_t* source, std::size_t source_stride, std::uint8_t* target,
-                               std::size_t target_stride)
-{
-  constexpr std::size_t side = 16;
-  const hn::FixedTag<std::uint8_t, side> bytes;
-  using Vector = hn::Vec<decltype(bytes)>;
-  Vector rows[side];
-  Vector mixed[side];
-  for (std::size_t i = 0; i < side; ++i)
-  {
-    rows[i] = hn::LoadU(bytes, source + i * source_stride);
-  }
-  // Four perfect shuffles of the 16 rows transpose the block.
-  Vector* from = rows;
-  Vector* to = mixed;
-  for (int round = 0; round < 4; ++round)
-  {
-    for (std::size_t i = 0; i < side / 2; ++i)
-    {
-      to[2 * i] = hn::InterleaveLower(bytes, from[i], from[i + side / 2]);
-      to[2 * i + 1] = hn::InterleaveUpper(bytes, from[i], from[i + side / 2]);
-    }
-    std::swap(from, to);
-  }
-  for (std::size_t i = 0; i < side; ++i)
-  {
-    hn::StoreU(from[i], bytes, target + i * target_stride);
-  }
-}
-
-void transposeCostsSimd(const std::uint8_t* cost, std::size_t cost_stride, int labels, int width,
-                        std::uint8_t* volume)
-{
-  constexpr int side = 16;
-  const auto pitch = static_cast<std::size_t>(labels);
-  for (int x = 0; x < width; x += side)
-  {
-    for (int label = 0; label < labels; label += side)
-    {
-      transposeBlock(cost + static_cast<std::size_t>(label) * cost_stride + x, cost_stride,
-                     volume + static_cast<std::size_t>(x) * pitch + label, pitch);
-    }
-  }
-}
-
 #endif  // HWY_TARGET == HWY_SCALAR
 }  // namespace HWY_NAMESPACE
 }  // namespace light_field_depth::multiview
@@ -280,7 +228,6 @@ namespace light_field_depth::multiview
 HWY_EXPORT(interpolateTapsSimd);
 HWY_EXPORT(armCostRowSimd);
 HWY_EXPORT(visibleCostRowSimd);
-HWY_EXPORT(transposeCostsSimd);
 
 void interpolateTaps(const std::array<const std::uint8_t*, 4>& taps, int phase, int count,
                      std::uint8_t* values)
@@ -296,12 +243,6 @@ void armCostRow(const ArmCostRow& row, std::uint8_t* cost)
 void visibleCostRow(const VisibleCostRow& row, std::uint8_t* cost)
 {
   HWY_DYNAMIC_DISPATCH(visibleCostRowSimd)(row, cost);
-}
-
-void transposeCosts(const std::uint8_t* cost, std::size_t cost_stride, int labels, int width,
-                    std::uint8_t* volume)
-{
-  HWY_DYNAMIC_DISPATCH(transposeCostsSimd)(cost, cost_stride, labels, width, volume);
 }
 
 }  // namespace light_field_depth::multiview

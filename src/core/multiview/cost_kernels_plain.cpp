@@ -95,16 +95,4 @@ void visibleCostRowPlain(const VisibleCostRow& row, std::uint8_t* cost)
   }
 }
 
-void transposeCostsPlain(const std::uint8_t* cost, std::size_t cost_stride, int labels, int width,
-                         std::uint8_t* volume)
-{
-  for (int x = 0; x < width; ++x)
-  {
-    for (int label = 0; label < labels; ++label)
-    {
-      *volume++ = cost[static_cast<std::size_t>(label) * cost_stride + static_cast<std::size_t>(x)];
-    }
-  }
-}
-
 }  // namespace light_field_depth::multiview

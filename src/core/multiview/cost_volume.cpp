@@ -10,14 +10,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-constexpr int LABEL_MULTIPLE = 16;
-constexpr int PIXEL_MULTIPLE = 64;
-constexpr int ROWS_PER_CHUNK = 64;
-
-int roundUp(int value, int multiple)
-{
-  return (value + multiple - 1) / multiple * multiple;
-}
+constexpr int TILE_ROWS_PER_CHUNK = 2;
 
 /// Half of the arms, as a number that the kernel can average.
 int bestArms(std::size_t arms)
@@ -45,14 +38,12 @@ std::vector<std::uint16_t> armScales(const ViewSet& views, int truncation)
 
 }  // namespace
 
-void CostVolume::create(int new_width, int new_height, int new_labels)
+void CostVolume::create(int new_width, int new_height, const LabelBands& new_bands)
 {
   width = new_width;
   height = new_height;
-  labels = new_labels;
-  pitch = roundUp(labels, LABEL_MULTIPLE);
-  padded_width = roundUp(width, PIXEL_MULTIPLE);
-  values.resize(rowOffset(height));
+  bands = new_bands;
+  values.resize(size());
 }
 
 /// Memory of one chunk of rows at work.
@@ -61,7 +52,9 @@ struct CostVolumeBuilder::Scratch
   std::vector<SampleRows> samples;            // one a view
   std::vector<const std::uint8_t*> pointers;  // one a view, for one label
   std::vector<const std::uint8_t*> surfaces;
-  std::vector<std::uint8_t> cost;  // [label][x] of one row
+  std::vector<const std::uint8_t*> shifted_pointers;  // where a run of tiles begins
+  std::vector<const std::uint8_t*> shifted_surfaces;
+  std::vector<std::uint8_t> cost;  // of one label in one row
 };
 
 CostVolumeBuilder::CostVolumeBuilder() = default;
@@ -85,16 +78,18 @@ void CostVolumeBuilder::giveBack(std::unique_ptr<Scratch> scratch)
   free_scratch_.push_back(std::move(scratch));
 }
 
-void CostVolumeBuilder::buildFromArms(const ViewSet& views, const LabelSpace& labels,
+void CostVolumeBuilder::buildFromArms(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
                                       const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
+  volume.create(views.width(), views.height(), bands);
   build(views, labels, nullptr, settings, pool, volume);
 }
 
 void CostVolumeBuilder::buildFromVisible(const ViewSet& views, const LabelSpace& labels,
-                                         const VisibleSurfaces& surfaces, const CostSettings& settings,
-                                         ThreadPool& pool, CostVolume& volume)
+                                         const LabelBands& bands, const VisibleSurfaces& surfaces,
+                                         const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
+  volume.create(views.width(), views.height(), bands);
   build(views, labels, &surfaces, settings, pool, volume);
 }
 
@@ -119,89 +114,137 @@ struct CostVolumeBuilder::RowJob
     {
       scratch.samples[i].reset(views.views[i], labels);
     }
-    scratch.cost.assign(
-        static_cast<std::size_t>(volume.pitch) * static_cast<std::size_t>(volume.padded_width), PADDING_COST);
+    scratch.cost.resize(static_cast<std::size_t>(volume.bands.columns()) * TILE_PX + VECTOR_OVERRUN);
   }
 
   void run(int y) const
   {
-    const auto stride = static_cast<std::size_t>(volume.padded_width);
+    const int tile_row = y / TILE_PX;
     for (int label = 0; label < labels.count; ++label)
     {
-      for (std::size_t i = 0; i < scratch.samples.size(); ++i)
+      bool sampled = false;
+      for (int column = 0; column < volume.bands.columns(); ++column)
       {
-        scratch.pointers[i] = scratch.samples[i].row(label, y);
-      }
-      std::uint8_t* const cost = scratch.cost.data() + static_cast<std::size_t>(label) * stride;
-      if (surfaces == nullptr)
-      {
-        armCost(y, cost);
-      }
-      else
-      {
-        visibleCost(label, y, cost);
+        if (!volume.bands.at(tile_row, column).contains(label))
+        {
+          continue;
+        }
+        if (!sampled)
+        {
+          sample(label, y);
+          sampled = true;
+        }
+        int end = column + 1;
+        while (end < volume.bands.columns() && volume.bands.at(tile_row, end).contains(label))
+        {
+          ++end;
+        }
+        runTiles(label, y, column, end);
+        column = end;
       }
     }
-    transposeCosts(scratch.cost.data(), stride, volume.pitch, volume.padded_width,
-                   volume.values.data() + volume.rowOffset(y));
   }
 
-  void armCost(int y, std::uint8_t* cost) const
+private:
+  void sample(int label, int y) const
+  {
+    for (std::size_t i = 0; i < scratch.samples.size(); ++i)
+    {
+      scratch.pointers[i] = scratch.samples[i].row(label, y);
+    }
+    if (surfaces == nullptr)
+    {
+      return;
+    }
+    const double disparity = labels.disparity(static_cast<float>(label));
+    for (std::size_t i = 0; i < scratch.samples.size(); ++i)
+    {
+      const PreparedView& view = views.views[i];
+      const auto dx = static_cast<int>(std::floor(view.offset_px.x - disparity * view.steps.x + 0.5));
+      const auto dy = static_cast<int>(std::floor(view.offset_px.y - disparity * view.steps.y + 0.5));
+      scratch.surfaces[i] = surfaces->row(static_cast<int>(i), y + dy) + dx;
+    }
+  }
+
+  /// One label in neighbouring tiles.
+  void runTiles(int label, int y, int first_column, int end_column) const
+  {
+    const int first_x = first_column * TILE_PX;
+    const int width = std::min(end_column * TILE_PX, views.width()) - first_x;
+    if (surfaces == nullptr)
+    {
+      armCost(y, first_x, width);
+    }
+    else
+    {
+      visibleCost(label, y, first_x, width);
+    }
+    const std::uint8_t* cost = scratch.cost.data();
+    for (int column = first_column; column < end_column; ++column, cost += TILE_PX)
+    {
+      const LabelBand& band = volume.bands.at(y / TILE_PX, column);
+      const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(y % TILE_PX) * band.count + label - band.first;
+      std::copy_n(cost, TILE_PX,
+                  volume.values.data() + volume.tileOffset(y / TILE_PX, column) + line * TILE_PX);
+    }
+  }
+
+  static const std::uint8_t* const* shifted(const std::vector<const std::uint8_t*>& rows, int first_x,
+                                            std::vector<const std::uint8_t*>& result)
+  {
+    result.resize(rows.size());
+    std::transform(rows.begin(), rows.end(), result.begin(),
+                   [first_x](const std::uint8_t* row) { return row + first_x; });
+    return result.data();
+  }
+
+  void armCost(int y, int first_x, int width) const
   {
     ArmCostRow row;
-    row.reference = views.reference.row(y);
+    row.reference = views.reference.row(y) + first_x;
     row.reference_stride = views.reference.channelStride();
-    row.samples = scratch.pointers.data();
+    row.samples = shifted(scratch.pointers, first_x, scratch.shifted_pointers);
     row.sample_stride = scratch.samples.front().channelStride();
     row.channels = views.reference.channels();
-    row.width = views.width();
+    row.width = width;
     row.truncation = settings.truncation;
     row.arms = views.arms.data();
     row.arm_count = static_cast<int>(views.arms.size());
     row.best_arms = bestArms(views.arms.size());
     row.arm_scales = arm_scales.data();
-    armCostRow(row, cost);
+    armCostRow(row, scratch.cost.data());
   }
 
-  void visibleCost(int label, int y, std::uint8_t* cost) const
+  void visibleCost(int label, int y, int first_x, int width) const
   {
-    for (std::size_t i = 0; i < scratch.samples.size(); ++i)
-    {
-      const PreparedView& view = views.views[i];
-      const double disparity = labels.disparity(static_cast<float>(label));
-      const auto dx = static_cast<int>(std::floor(view.offset_px.x - disparity * view.steps.x + 0.5));
-      const auto dy = static_cast<int>(std::floor(view.offset_px.y - disparity * view.steps.y + 0.5));
-      scratch.surfaces[i] = surfaces->row(static_cast<int>(i), y + dy) + dx;
-    }
     VisibleCostRow row;
-    row.reference = views.reference.row(y);
+    row.reference = views.reference.row(y) + first_x;
     row.reference_stride = views.reference.channelStride();
-    row.samples = scratch.pointers.data();
+    row.samples = shifted(scratch.pointers, first_x, scratch.shifted_pointers);
     row.sample_stride = scratch.samples.front().channelStride();
-    row.surfaces = scratch.surfaces.data();
+    row.surfaces = shifted(scratch.surfaces, first_x, scratch.shifted_surfaces);
     row.views = static_cast<int>(scratch.samples.size());
     row.channels = views.reference.channels();
-    row.width = views.width();
+    row.width = width;
     row.truncation = settings.truncation;
     row.hidden_above = std::min(label + 1 + settings.hidden_margin, OUT_OF_FRAME - 1);
     row.min_seeing_views = settings.min_seeing_views;
     row.unseen_penalty = settings.unseen_penalty;
-    visibleCostRow(row, cost);
+    visibleCostRow(row, scratch.cost.data());
   }
 };
 
 void CostVolumeBuilder::build(const ViewSet& views, const LabelSpace& labels, const VisibleSurfaces* surfaces,
                               const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
-  volume.create(views.width(), views.height(), labels.count);
   const auto scales = armScales(views, settings.truncation);
-  pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
+  pool.parallelFor(0, volume.bands.rows(), TILE_ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
                      auto scratch = takeScratch();
                      const RowJob job{views, labels, surfaces, settings, scales, *scratch, volume};
                      job.begin();
-                     for (int y = first; y < last; ++y)
+                     for (int y = first * TILE_PX; y < std::min(last * TILE_PX, volume.height); ++y)
                      {
                        job.run(y);
                      }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "light_field_depth/core/multiview/path_kernels.h"
 
@@ -12,7 +13,6 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
-constexpr int COLUMNS_PER_CHUNK = 32;
 constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
 
 using StepTable = std::array<std::uint16_t, COLOUR_DIFFERENCES>;
@@ -41,30 +41,87 @@ int colourDifference(const std::uint8_t* a, const std::uint8_t* b, int channels,
   return channels == 1 ? 3 * sum : sum;
 }
 
-void fillGuards(std::vector<std::uint16_t>& states)
+/// The states of TILE_PX paths on their way through tiles with different bands.
+class PathState
 {
-  std::fill(states.begin(), states.end(), STATE_GUARD_VALUE);
-}
+public:
+  /// Room for the labels 0..labels - 1 and one more on either side.
+  void begin(int labels)
+  {
+    values_.assign(static_cast<std::size_t>(labels + 2) * TILE_PX, 0);
+    minima_.fill(0);
+    band_ = {0, labels};
+    fill(-1, 0);
+    fill(labels, labels + 1);
+  }
+
+  /// Labels that the last tile did not try have no state in the next one.
+  void enter(const LabelBand& band)
+  {
+    fill(band.first - 1, std::min(band_.first, band.end() + 1));
+    fill(std::max(band_.end(), band.first - 1), band.end() + 1);
+    fill(band.first - 1, band.first);
+    fill(band.end(), band.end() + 1);
+    band_ = band;
+  }
+
+  std::uint16_t* values() { return at(band_.first); }
+  std::uint16_t* minima() { return minima_.data(); }
+
+private:
+  std::uint16_t* at(int label) { return values_.data() + static_cast<std::ptrdiff_t>(label + 1) * TILE_PX; }
+  void fill(int first, int end)
+  {
+    if (first < end)
+    {
+      std::fill(at(first), at(end), NO_STATE);
+    }
+  }
+
+  std::vector<std::uint16_t> values_;
+  std::array<std::uint16_t, TILE_PX> minima_{};
+  LabelBand band_;
+};
 
 }  // namespace
 
-void PathAggregator::aggregate(const CostVolume& volume, const PlanarImage& guide,
-                               const PathSettings& settings, ThreadPool& pool, cv::Mat& label)
+/// Memory of one strip or column of tiles at work.
+struct PathAggregator::Scratch
 {
-  label.create(volume.height, volume.width, CV_32FC1);
-  sums_.resize(volume.rowOffset(volume.height));
-  prepareSteps(guide, settings, pool);
-  aggregateRows(volume, settings, pool);
-  aggregateColumns(volume, settings, pool, label);
+  PathState state;
+  std::vector<std::uint8_t> cost;    // the tiles of a strip, transposed
+  std::vector<std::uint16_t> sums;   // likewise
+  std::vector<std::uint16_t> steps;  // [x][TILE_PX]
+};
+
+PathAggregator::PathAggregator() = default;
+PathAggregator::~PathAggregator() = default;
+
+std::unique_ptr<PathAggregator::Scratch> PathAggregator::takeScratch()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (free_scratch_.empty())
+  {
+    return std::make_unique<Scratch>();
+  }
+  auto scratch = std::move(free_scratch_.back());
+  free_scratch_.pop_back();
+  return scratch;
 }
 
-void PathAggregator::prepareSteps(const PlanarImage& guide, const PathSettings& settings, ThreadPool& pool)
+void PathAggregator::giveBack(std::unique_ptr<Scratch> scratch)
 {
-  const auto width = static_cast<std::size_t>(guide.width());
-  const std::size_t pixels = width * static_cast<std::size_t>(guide.height());
-  width_ = guide.width();
-  step_left_.resize(pixels);
-  step_above_.resize(pixels);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  free_scratch_.push_back(std::move(scratch));
+}
+
+void PathAggregator::setGuide(const PlanarImage& guide, const PathSettings& settings, ThreadPool& pool)
+{
+  // One tile more than the image on the right and below, so that whole tiles and the step after can be read.
+  const auto padded = [](int size) { return static_cast<std::size_t>(size / TILE_PX + 2) * TILE_PX; };
+  step_stride_ = padded(guide.width());
+  step_left_.resize(step_stride_ * padded(guide.height()));
+  step_above_.resize(step_left_.size());
   const StepTable table = makeStepTable(settings);
   const auto step = [&](const std::uint8_t* a, const std::uint8_t* b) {
     return table[static_cast<std::size_t>(colourDifference(a, b, guide.channels(), guide.channelStride()))];
@@ -72,11 +129,12 @@ void PathAggregator::prepareSteps(const PlanarImage& guide, const PathSettings& 
   pool.parallelFor(0, guide.height(), ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
+                     const auto width = static_cast<std::size_t>(guide.width());
                      for (int y = first; y < last; ++y)
                      {
                        const std::uint8_t* const row = guide.row(y);
                        const std::uint8_t* const above = guide.row(y - 1);
-                       const std::size_t offset = static_cast<std::size_t>(y) * width;
+                       const std::size_t offset = static_cast<std::size_t>(y) * step_stride_;
                        for (std::size_t x = 0; x < width; ++x)
                        {
                          step_left_[offset + x] = step(row + x - (x > 0 ? 1 : 0), row + x);
@@ -86,70 +144,183 @@ void PathAggregator::prepareSteps(const PlanarImage& guide, const PathSettings& 
                    });
 }
 
-void PathAggregator::aggregateRows(const CostVolume& volume, const PathSettings& settings, ThreadPool& pool)
+/// Both horizontal paths over TILE_PX rows.
+class PathAggregator::Strip
 {
-  constexpr std::size_t states_per_chunk = 4;
-  const std::size_t state_stride = static_cast<std::size_t>(volume.pitch) + 2 * STATE_GUARD;
-  const auto chunks = static_cast<std::size_t>((volume.height + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
-  states_.resize(chunks * states_per_chunk * state_stride);
-  fillGuards(states_);
-  pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
-                   [&](int first, int last)
-                   {
-                     const auto chunk = static_cast<std::size_t>(first / ROWS_PER_CHUNK);
-                     std::uint16_t* const states = states_.data() + chunk * states_per_chunk * state_stride;
-                     PathRow row;
-                     row.width = volume.width;
-                     row.pitch = volume.pitch;
-                     row.p1 = static_cast<std::uint16_t>(settings.small_step);
-                     for (int y = first; y < last; ++y)
-                     {
-                       row.cost = volume.values.data() + volume.rowOffset(y);
-                       row.sums = sums_.data() + volume.rowOffset(y);
-                       row.p2 = step_left_.data() +
-                                static_cast<std::size_t>(y) * static_cast<std::size_t>(volume.width);
-                       aggregateRow(row, states);
-                     }
-                   });
-}
-
-void PathAggregator::aggregateColumns(const CostVolume& volume, const PathSettings& settings,
-                                      ThreadPool& pool, cv::Mat& label)
-{
-  const std::size_t state_stride = static_cast<std::size_t>(volume.pitch) + 2 * STATE_GUARD;
-  const auto width = static_cast<std::size_t>(volume.width);
-  const std::size_t states = width * state_stride;
-  states_.resize(2 * states);
-  fillGuards(states_);
-  minima_.resize(width);
-  const auto column_block = [&](int first, int last)
+public:
+  Strip(PathAggregator& aggregator, const CostVolume& volume, const PathSettings& settings, int row,
+        Scratch& scratch)
+      : aggregator_(aggregator), volume_(volume), scratch_(scratch), row_(row),
+        p1_(static_cast<std::uint16_t>(settings.small_step))
   {
-    const auto column = static_cast<std::size_t>(first);
-    PathRow row;
-    row.width = last - first;
-    row.pitch = volume.pitch;
-    row.p1 = static_cast<std::uint16_t>(settings.small_step);
-    std::uint16_t* before = states_.data() + column * state_stride;
-    std::uint16_t* after = before + states;
-    for (int i = 0; i < 2 * volume.height; ++i)
+    const auto columns = static_cast<std::size_t>(volume.bands.columns());
+    const std::size_t values = volume.tileOffset(0, volume.bands.columns());
+    scratch.cost.resize(values);
+    scratch.sums.resize(values);
+    scratch.steps.resize((columns + 1) * TILE_PX * TILE_PX);
+    for (std::size_t column = 0; column <= columns; ++column)
     {
-      const bool down = i < volume.height;
-      const int y = down ? i : 2 * volume.height - 1 - i;
-      const bool start = i == 0 || i == volume.height;
-      const std::size_t offset = volume.rowOffset(y) + column * static_cast<std::size_t>(volume.pitch);
-      const int step_row = down || start ? y : y + 1;
-      row.cost = volume.values.data() + offset;
-      row.sums = sums_.data() + offset;
-      row.p2 = step_above_.data() + static_cast<std::size_t>(step_row) * width + column;
-      aggregateStep(row, start, before, after, minima_.data() + column);
-      std::swap(before, after);
-      if (!down)
-      {
-        selectLabels(row.sums, row.width, volume.labels, volume.pitch, label.ptr<float>(y) + first);
-      }
+      transposeSteps(column);
     }
+  }
+
+  void run()
+  {
+    const int columns = volume_.bands.columns();
+    scratch_.state.begin(volume_.bands.labels());
+    for (int column = 0; column < columns; ++column)
+    {
+      const LabelBand& band = volume_.bands.at(row_, column);
+      transposeTile(volume_.values.data() + volume_.tileOffset(row_, column), band.count, cost(column));
+      walk(column, false);
+    }
+    scratch_.state.begin(volume_.bands.labels());
+    for (int column = columns - 1; column >= 0; --column)
+    {
+      walk(column, true);
+      transposeTile(sums(column), volume_.bands.at(row_, column).count,
+                    aggregator_.sums_.data() + volume_.tileOffset(row_, column));
+    }
+  }
+
+private:
+  std::uint8_t* cost(int column) const { return scratch_.cost.data() + volume_.tileOffset(0, column); }
+  std::uint16_t* sums(int column) const { return scratch_.sums.data() + volume_.tileOffset(0, column); }
+
+  void transposeSteps(std::size_t column) const
+  {
+    std::array<std::uint16_t, static_cast<std::size_t>(TILE_PX) * TILE_PX> block{};
+    for (std::size_t y = 0; y < TILE_PX; ++y)
+    {
+      const std::size_t row = static_cast<std::size_t>(row_) * TILE_PX + y;
+      std::copy_n(aggregator_.step_left_.data() + row * aggregator_.step_stride_ + column * TILE_PX, TILE_PX,
+                  block.data() + y * TILE_PX);
+    }
+    transposeTile(block.data(), 1, scratch_.steps.data() + column * TILE_PX * TILE_PX);
+  }
+
+  void walk(int column, bool backward) const
+  {
+    const LabelBand& band = volume_.bands.at(row_, column);
+    scratch_.state.enter(band);
+    PathTile tile;
+    tile.cost = cost(column);
+    tile.sums = sums(column);
+    tile.add = backward;
+    tile.labels = band.count;
+    tile.lines = std::min(TILE_PX, volume_.width - column * TILE_PX);
+    tile.backward = backward;
+    tile.p1 = p1_;
+    tile.p2 = scratch_.steps.data() + static_cast<std::ptrdiff_t>(column) * TILE_PX * TILE_PX +
+              (backward ? TILE_PX : 0);
+    tile.p2_stride = TILE_PX;
+    tile.state = scratch_.state.values();
+    tile.minima = scratch_.state.minima();
+    aggregateTile(tile);
+  }
+
+  PathAggregator& aggregator_;
+  const CostVolume& volume_;
+  Scratch& scratch_;
+  int row_;
+  std::uint16_t p1_;
+};
+
+/// Both vertical paths over TILE_PX columns, and the best labels.
+class PathAggregator::Column
+{
+public:
+  Column(PathAggregator& aggregator, const CostVolume& volume, const PathSettings& settings, int column,
+         Scratch& scratch, cv::Mat& label)
+      : aggregator_(aggregator), volume_(volume), scratch_(scratch), label_(label), column_(column),
+        p1_(static_cast<std::uint16_t>(settings.small_step))
+  {
+  }
+
+  void run()
+  {
+    const int rows = volume_.bands.rows();
+    scratch_.state.begin(volume_.bands.labels());
+    for (int row = 0; row < rows; ++row)
+    {
+      walk(row, false);
+    }
+    scratch_.state.begin(volume_.bands.labels());
+    for (int row = rows - 1; row >= 0; --row)
+    {
+      walk(row, true);
+      select(row);
+    }
+  }
+
+private:
+  int linesOf(int row) const { return std::min(TILE_PX, volume_.height - row * TILE_PX); }
+  std::uint16_t* sums(int row) const { return aggregator_.sums_.data() + volume_.tileOffset(row, column_); }
+
+  void walk(int row, bool backward) const
+  {
+    const LabelBand& band = volume_.bands.at(row, column_);
+    scratch_.state.enter(band);
+    PathTile tile;
+    tile.cost = volume_.values.data() + volume_.tileOffset(row, column_);
+    tile.sums = sums(row);
+    tile.add = true;
+    tile.labels = band.count;
+    tile.lines = linesOf(row);
+    tile.backward = backward;
+    tile.p1 = p1_;
+    const std::size_t step_row = static_cast<std::size_t>(row) * TILE_PX + (backward ? 1 : 0);
+    tile.p2 = aggregator_.step_above_.data() + step_row * aggregator_.step_stride_ +
+              static_cast<std::size_t>(column_) * TILE_PX;
+    tile.p2_stride = static_cast<std::ptrdiff_t>(aggregator_.step_stride_);
+    tile.state = scratch_.state.values();
+    tile.minima = scratch_.state.minima();
+    aggregateTile(tile);
+  }
+
+  void select(int row) const
+  {
+    const LabelBand& band = volume_.bands.at(row, column_);
+    std::array<float, TILE_PX> best{};
+    const int width = std::min(TILE_PX, volume_.width - column_ * TILE_PX);
+    for (int line = 0; line < linesOf(row); ++line)
+    {
+      selectLabels(sums(row) + static_cast<std::ptrdiff_t>(line) * band.count * TILE_PX, band.count,
+                   band.first, best.data());
+      std::copy_n(best.data(), width, label_.ptr<float>(row * TILE_PX + line) + column_ * TILE_PX);
+    }
+  }
+
+  PathAggregator& aggregator_;
+  const CostVolume& volume_;
+  Scratch& scratch_;
+  cv::Mat& label_;
+  int column_;
+  std::uint16_t p1_;
+};
+
+void PathAggregator::aggregate(const CostVolume& volume, const PathSettings& settings, ThreadPool& pool,
+                               cv::Mat& label)
+{
+  label.create(volume.height, volume.width, CV_32FC1);
+  sums_.resize(volume.size());
+  const auto each = [&](int count, const auto& body)
+  {
+    pool.parallelFor(0, count, 1,
+                     [&](int first, int last)
+                     {
+                       auto scratch = takeScratch();
+                       for (int i = first; i < last; ++i)
+                       {
+                         body(i, *scratch);
+                       }
+                       giveBack(std::move(scratch));
+                     });
   };
-  pool.parallelFor(0, volume.width, COLUMNS_PER_CHUNK, column_block);
+  each(volume.bands.rows(),
+       [&](int row, Scratch& scratch) { Strip(*this, volume, settings, row, scratch).run(); });
+  each(volume.bands.columns(),
+       [&](int column, Scratch& scratch) { Column(*this, volume, settings, column, scratch, label).run(); });
 }
 
 }  // namespace light_field_depth::multiview

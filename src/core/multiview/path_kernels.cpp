@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "light_field_depth/core/multiview/path_kernels.h"
 
@@ -15,195 +16,193 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 // A processor without any of the known vector instructions.
-void aggregateRowSimd(const PathRow& row, std::uint16_t* states)
+void aggregateTileSimd(const PathTile& tile)
 {
-  aggregateRowPlain(row, states);
+  aggregateTilePlain(tile);
 }
 
-void aggregateStepSimd(const PathRow& row, bool first, const std::uint16_t* before, std::uint16_t* after,
-                       std::uint16_t* minima)
+void transposeBytesSimd(const std::uint8_t* source, int labels, std::uint8_t* target)
 {
-  aggregateStepPlain(row, first, before, after, minima);
+  transposeTilePlain(source, labels, target);
 }
 
-void selectLabelsSimd(const std::uint16_t* sums, int width, int labels, int pitch, float* best)
+void transposeWordsSimd(const std::uint16_t* source, int labels, std::uint16_t* target)
 {
-  selectLabelsPlain(sums, width, labels, pitch, best);
+  transposeTilePlain(source, labels, target);
+}
+
+void selectLabelsSimd(const std::uint16_t* sums, int labels, int first_label, float* best)
+{
+  selectLabelsPlain(sums, labels, first_label, best);
 }
 #else
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Words = hn::CappedTag<std::uint16_t, 16>;
+using Words = hn::CappedTag<std::uint16_t, TILE_PX>;
 using WordBytes = hn::Rebind<std::uint8_t, Words>;
 using Vector = hn::Vec<Words>;
 
-enum class SumMode
+/// All labels of some paths in one line.
+template <bool ADD>
+HWY_INLINE void lineStep(const std::uint8_t* cost, int labels, Vector p1, const std::uint16_t* p2,
+                         std::uint16_t* state, std::uint16_t* minima, std::uint16_t* sums)
 {
-  Store,
-  Add
-};
-
-template <SumMode MODE>
-HWY_INLINE void emit(Words words, Vector value, std::uint16_t* sums)
-{
-  if (MODE == SumMode::Add)
-  {
-    value = hn::Add(value, hn::LoadU(words, sums));
-  }
-  hn::StoreU(value, words, sums);
-}
-
-/// One pixel of one path. @return the minimum over the labels, in every lane
-template <SumMode MODE>
-HWY_INLINE Vector pathStep(Words words, const std::uint8_t* cost, const std::uint16_t* before,
-                           Vector before_minimum, Vector p1, Vector p2, int pitch, std::uint16_t* after,
-                           std::uint16_t* sums)
-{
+  const Words words;
   const WordBytes bytes;
-  const auto jump = hn::Add(before_minimum, p2);
-  auto minimum = hn::Set(words, STATE_GUARD_VALUE);
-  const int lanes = static_cast<int>(hn::Lanes(words));
-  for (int label = 0; label < pitch; label += lanes)
+  const auto before_minimum = hn::LoadU(words, minima);
+  const auto jump = hn::Add(before_minimum, hn::LoadU(words, p2));
+  auto least = hn::Set(words, NO_STATE);
+  auto below = least;
+  auto here = hn::LoadU(words, state);
+  for (int label = 0; label < labels; ++label)
   {
-    const auto same = hn::LoadU(words, before + label);
-    const auto below = hn::LoadU(words, before + label - 1);
-    const auto above = hn::LoadU(words, before + label + 1);
+    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(label) * TILE_PX;
+    const auto above = hn::LoadU(words, state + offset + TILE_PX);
     const auto neighbour = hn::SaturatedAdd(hn::Min(below, above), p1);
-    const auto best = hn::Min(hn::Min(same, jump), neighbour);
-    const auto data = hn::PromoteTo(words, hn::LoadU(bytes, cost + label));
+    const auto best = hn::Min(hn::Min(here, jump), neighbour);
+    const auto data = hn::PromoteTo(words, hn::LoadU(bytes, cost + offset));
     const auto value = hn::Add(data, hn::Sub(best, before_minimum));
-    hn::StoreU(value, words, after + label);
-    minimum = hn::Min(minimum, value);
-    emit<MODE>(words, value, sums + label);
+    hn::StoreU(value, words, state + offset);
+    least = hn::Min(least, value);
+    hn::StoreU(ADD ? hn::Add(value, hn::LoadU(words, sums + offset)) : value, words, sums + offset);
+    below = here;
+    here = above;
   }
-  return hn::MinOfLanes(words, minimum);
+  hn::StoreU(least, words, minima);
 }
 
-template <SumMode MODE>
-HWY_INLINE Vector firstStep(Words words, const std::uint8_t* cost, int pitch, std::uint16_t* after,
-                            std::uint16_t* sums)
+template <bool ADD>
+HWY_INLINE void aggregateLines(const PathTile& tile)
 {
-  const WordBytes bytes;
-  auto minimum = hn::Set(words, STATE_GUARD_VALUE);
+  const Words words;
+  const auto p1 = hn::Set(words, tile.p1);
   const int lanes = static_cast<int>(hn::Lanes(words));
-  for (int label = 0; label < pitch; label += lanes)
+  const std::ptrdiff_t line_size = static_cast<std::ptrdiff_t>(tile.labels) * TILE_PX;
+  for (int step = 0; step < tile.lines; ++step)
   {
-    const auto value = hn::PromoteTo(words, hn::LoadU(bytes, cost + label));
-    hn::StoreU(value, words, after + label);
-    minimum = hn::Min(minimum, value);
-    emit<MODE>(words, value, sums + label);
-  }
-  return hn::MinOfLanes(words, minimum);
-}
-
-/// One path in the middle of its row.
-struct Walker
-{
-  std::uint16_t* before = nullptr;
-  std::uint16_t* after = nullptr;
-};
-
-template <SumMode MODE>
-HWY_INLINE void walkBoth(const PathRow& row, int first, int last, Walker& right, Walker& left,
-                         Vector& right_minimum, Vector& left_minimum)
-{
-  const Words words;
-  const auto pitch = static_cast<std::size_t>(row.pitch);
-  const auto p1 = hn::Set(words, row.p1);
-  for (int x = first; x < last; ++x)
-  {
-    const int mirrored = row.width - 1 - x;
-    const std::size_t offset = static_cast<std::size_t>(x) * pitch;
-    right_minimum = pathStep<MODE>(words, row.cost + offset, right.before, right_minimum, p1,
-                                   hn::Set(words, row.p2[x]), row.pitch, right.after, row.sums + offset);
-    std::swap(right.before, right.after);
-    const std::size_t mirrored_offset = static_cast<std::size_t>(mirrored) * pitch;
-    left_minimum = pathStep<MODE>(words, row.cost + mirrored_offset, left.before, left_minimum, p1,
-                                  hn::Set(words, row.p2[mirrored + 1]), row.pitch, left.after,
-                                  row.sums + mirrored_offset);
-    std::swap(left.before, left.after);
-  }
-}
-
-void aggregateRowSimd(const PathRow& row, std::uint16_t* states)
-{
-  const Words words;
-  const auto pitch = static_cast<std::size_t>(row.pitch);
-  const std::size_t state_stride = pitch + 2 * STATE_GUARD;
-  std::uint16_t* const base = states + STATE_GUARD;
-  Walker right{base, base + state_stride};
-  Walker left{base + 2 * state_stride, base + 3 * state_stride};
-  const std::size_t end = static_cast<std::size_t>(row.width - 1) * pitch;
-  auto right_minimum = firstStep<SumMode::Store>(words, row.cost, row.pitch, right.before, row.sums);
-  auto left_minimum =
-      firstStep<SumMode::Store>(words, row.cost + end, row.pitch, left.before, row.sums + end);
-  // Until the two meet each writes where nobody was; in the middle of an odd width one of them adds.
-  const int half = row.width / 2;
-  walkBoth<SumMode::Store>(row, 1, half, right, left, right_minimum, left_minimum);
-  if (row.width % 2 != 0)
-  {
-    std::fill(row.sums + static_cast<std::size_t>(half) * pitch,
-              row.sums + static_cast<std::size_t>(half + 1) * pitch, std::uint16_t{0});
-  }
-  walkBoth<SumMode::Add>(row, half, row.width, right, left, right_minimum, left_minimum);
-}
-
-void aggregateStepSimd(const PathRow& row, bool first, const std::uint16_t* before, std::uint16_t* after,
-                       std::uint16_t* minima)
-{
-  const Words words;
-  const auto pitch = static_cast<std::size_t>(row.pitch);
-  const std::size_t state_stride = pitch + 2 * STATE_GUARD;
-  const auto p1 = hn::Set(words, row.p1);
-  for (int x = 0; x < row.width; ++x)
-  {
-    const std::size_t offset = static_cast<std::size_t>(x) * pitch;
-    const std::size_t state = static_cast<std::size_t>(x) * state_stride + STATE_GUARD;
-    const auto minimum =
-        first
-            ? firstStep<SumMode::Add>(words, row.cost + offset, row.pitch, after + state, row.sums + offset)
-            : pathStep<SumMode::Add>(words, row.cost + offset, before + state, hn::Set(words, minima[x]), p1,
-                                     hn::Set(words, row.p2[x]), row.pitch, after + state, row.sums + offset);
-    minima[x] = hn::GetLane(minimum);
-  }
-}
-
-HWY_INLINE int labelOfMinimum(Words words, const std::uint16_t* sums, int labels)
-{
-  const int lanes = static_cast<int>(hn::Lanes(words));
-  auto minimum = hn::Set(words, STATE_GUARD_VALUE);
-  for (int label = 0; label < labels; label += lanes)
-  {
-    minimum = hn::Min(minimum, hn::LoadU(words, sums + label));
-  }
-  minimum = hn::MinOfLanes(words, minimum);
-  for (int label = 0; label < labels; label += lanes)
-  {
-    const auto found = hn::FindFirstTrue(words, hn::Eq(minimum, hn::LoadU(words, sums + label)));
-    if (found >= 0)
+    const int line = tile.backward ? tile.lines - 1 - step : step;
+    for (int i = 0; i < TILE_PX; i += lanes)
     {
-      return label + static_cast<int>(found);
+      lineStep<ADD>(tile.cost + line * line_size + i, tile.labels, p1, tile.p2 + line * tile.p2_stride + i,
+                    tile.state + i, tile.minima + i, tile.sums + line * line_size + i);
     }
   }
-  return 0;
 }
 
-void selectLabelsSimd(const std::uint16_t* sums, int width, int labels, int pitch, float* best)
+void aggregateTileSimd(const PathTile& tile)
+{
+  if (tile.add)
+  {
+    aggregateLines<true>(tile);
+  }
+  else
+  {
+    aggregateLines<false>(tile);
+  }
+}
+
+/// A square block of one vector a row: rows `stride` apart in the source and in the target. As many perfect
+/// shuffles as the side has bits transpose it.
+template <typename Value, std::size_t SIDE>
+HWY_INLINE void transposeBlock(const Value* source, std::ptrdiff_t stride, Value* target)
+{
+  const hn::FixedTag<Value, SIDE> tag;
+  using Row = hn::Vec<decltype(tag)>;
+  Row rows[SIDE];
+  Row mixed[SIDE];
+  for (std::size_t i = 0; i < SIDE; ++i)
+  {
+    rows[i] = hn::LoadU(tag, source + static_cast<std::ptrdiff_t>(i) * stride);
+  }
+  Row* from = rows;
+  Row* to = mixed;
+  for (std::size_t length = 1; length < SIDE; length *= 2)
+  {
+    for (std::size_t i = 0; i < SIDE / 2; ++i)
+    {
+      to[2 * i] = hn::InterleaveLower(tag, from[i], from[i + SIDE / 2]);
+      to[2 * i + 1] = hn::InterleaveUpper(tag, from[i], from[i + SIDE / 2]);
+    }
+    std::swap(from, to);
+  }
+  for (std::size_t i = 0; i < SIDE; ++i)
+  {
+    hn::StoreU(from[i], tag, target + static_cast<std::ptrdiff_t>(i) * stride);
+  }
+}
+
+template <typename Value>
+HWY_INLINE void transposeBlocks(const Value* source, int labels, Value* target)
+{
+  constexpr int side = static_cast<int>(16 / sizeof(Value));
+  const std::ptrdiff_t line_size = static_cast<std::ptrdiff_t>(labels) * TILE_PX;
+  for (int label = 0; label < labels; ++label)
+  {
+    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(label) * TILE_PX;
+    for (int line = 0; line < TILE_PX; line += side)
+    {
+      for (int i = 0; i < TILE_PX; i += side)
+      {
+        transposeBlock<Value, side>(source + line * line_size + offset + i, line_size,
+                                    target + i * line_size + offset + line);
+      }
+    }
+  }
+}
+
+void transposeBytesSimd(const std::uint8_t* source, int labels, std::uint8_t* target)
+{
+  transposeBlocks(source, labels, target);
+}
+
+void transposeWordsSimd(const std::uint16_t* source, int labels, std::uint16_t* target)
+{
+  transposeBlocks(source, labels, target);
+}
+
+void selectLabelsSimd(const std::uint16_t* sums, int labels, int first_label, float* best)
 {
   const Words words;
-  for (int x = 0; x < width; ++x)
+  HWY_ALIGN std::uint16_t label_of[TILE_PX];
+  HWY_ALIGN std::uint16_t least_of[TILE_PX];
+  HWY_ALIGN std::uint16_t below_of[TILE_PX];
+  HWY_ALIGN std::uint16_t above_of[TILE_PX];
+  const int lanes = static_cast<int>(hn::Lanes(words));
+  for (int i = 0; i < TILE_PX; i += lanes)
   {
-    const std::uint16_t* const pixel = sums + static_cast<std::size_t>(x) * static_cast<std::size_t>(pitch);
-    const int label = std::min(labelOfMinimum(words, pixel, labels), labels - 1);
-    float shift = 0.0F;
-    if (label > 0 && label + 1 < labels)
+    auto least = hn::LoadU(words, sums + i);
+    auto label_of_least = hn::Zero(words);
+    auto below = least;
+    auto above = least;
+    auto before = least;
+    auto was_better = hn::Eq(least, least);
+    for (int label = 1; label < labels; ++label)
     {
-      const int below = pixel[label - 1] - pixel[label];
-      const int above = pixel[label + 1] - pixel[label];
-      const int steeper = std::max(below, above);
-      shift = steeper > 0 ? 0.5F * static_cast<float>(below - above) / static_cast<float>(steeper) : 0.0F;
+      const auto sum = hn::LoadU(words, sums + static_cast<std::ptrdiff_t>(label) * TILE_PX + i);
+      above = hn::IfThenElse(was_better, sum, above);
+      const auto better = hn::Lt(sum, least);
+      least = hn::Min(sum, least);
+      label_of_least =
+          hn::IfThenElse(better, hn::Set(words, static_cast<std::uint16_t>(label)), label_of_least);
+      below = hn::IfThenElse(better, before, below);
+      before = sum;
+      was_better = better;
     }
-    best[x] = static_cast<float>(label) + shift;
+    hn::Store(label_of_least, words, label_of + i);
+    hn::Store(least, words, least_of + i);
+    hn::Store(below, words, below_of + i);
+    hn::Store(above, words, above_of + i);
+  }
+  for (int i = 0; i < TILE_PX; ++i)
+  {
+    const int label = label_of[i];
+    const int below = below_of[i] - least_of[i];
+    const int above = above_of[i] - least_of[i];
+    const int steeper = std::max(below, above);
+    const bool inside = label > 0 && label + 1 < labels && steeper > 0;
+    const float shift =
+        inside ? 0.5F * static_cast<float>(below - above) / static_cast<float>(steeper) : 0.0F;
+    best[i] = static_cast<float>(first_label + label) + shift;
   }
 }
 
@@ -215,24 +214,29 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(aggregateRowSimd);
-HWY_EXPORT(aggregateStepSimd);
+HWY_EXPORT(aggregateTileSimd);
+HWY_EXPORT(transposeBytesSimd);
+HWY_EXPORT(transposeWordsSimd);
 HWY_EXPORT(selectLabelsSimd);
 
-void aggregateRow(const PathRow& row, std::uint16_t* states)
+void aggregateTile(const PathTile& tile)
 {
-  HWY_DYNAMIC_DISPATCH(aggregateRowSimd)(row, states);
+  HWY_DYNAMIC_DISPATCH(aggregateTileSimd)(tile);
 }
 
-void aggregateStep(const PathRow& row, bool first, const std::uint16_t* before, std::uint16_t* after,
-                   std::uint16_t* minima)
+void transposeTile(const std::uint8_t* source, int labels, std::uint8_t* target)
 {
-  HWY_DYNAMIC_DISPATCH(aggregateStepSimd)(row, first, before, after, minima);
+  HWY_DYNAMIC_DISPATCH(transposeBytesSimd)(source, labels, target);
 }
 
-void selectLabels(const std::uint16_t* sums, int width, int labels, int pitch, float* best)
+void transposeTile(const std::uint16_t* source, int labels, std::uint16_t* target)
 {
-  HWY_DYNAMIC_DISPATCH(selectLabelsSimd)(sums, width, labels, pitch, best);
+  HWY_DYNAMIC_DISPATCH(transposeWordsSimd)(source, labels, target);
+}
+
+void selectLabels(const std::uint16_t* sums, int labels, int first_label, float* best)
+{
+  HWY_DYNAMIC_DISPATCH(selectLabelsSimd)(sums, labels, first_label, best);
 }
 
 }  // namespace light_field_depth::multiview

@@ -6,90 +6,93 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-/// One pixel of one path. @return the minimum over the labels
-std::uint16_t pathStep(const std::uint8_t* cost, const std::uint16_t* before, int before_minimum, int p1,
-                       int p2, int pitch, std::uint16_t* after)
+/// One path, whose values lie TILE_PX apart, in one line.
+void pathStep(const std::uint8_t* cost, int labels, int p1, int p2, std::uint16_t* state,
+              std::uint16_t& minimum)
 {
-  int minimum = STATE_GUARD_VALUE;
-  for (int label = 0; label < pitch; ++label)
+  const int before_minimum = minimum;
+  int below = NO_STATE;
+  int least = NO_STATE;
+  for (int label = 0; label < labels; ++label)
   {
-    const int neighbour = std::min<int>(before[label - 1], before[label + 1]) + p1;
-    const int best = std::min({static_cast<int>(before[label]), neighbour, before_minimum + p2});
-    const int value = cost[label] + best - before_minimum;
-    after[label] = static_cast<std::uint16_t>(value);
-    minimum = std::min(minimum, value);
+    std::uint16_t& here = state[static_cast<std::ptrdiff_t>(label) * TILE_PX];
+    const int above = state[static_cast<std::ptrdiff_t>(label + 1) * TILE_PX];
+    const int neighbour = std::min(below, above) + p1;
+    const int best = std::min({static_cast<int>(here), neighbour, before_minimum + p2});
+    below = here;
+    here = static_cast<std::uint16_t>(cost[static_cast<std::ptrdiff_t>(label) * TILE_PX] + best -
+                                      before_minimum);
+    least = std::min<int>(least, here);
   }
-  return static_cast<std::uint16_t>(minimum);
+  minimum = static_cast<std::uint16_t>(least);
 }
 
-std::uint16_t firstStep(const std::uint8_t* cost, int pitch, std::uint16_t* after)
+template <typename Value>
+void transposePlain(const Value* source, int labels, Value* target)
 {
-  std::copy(cost, cost + pitch, after);
-  return *std::min_element(cost, cost + pitch);
+  const std::ptrdiff_t line_size = static_cast<std::ptrdiff_t>(labels) * TILE_PX;
+  for (int line = 0; line < TILE_PX; ++line)
+  {
+    for (int label = 0; label < labels; ++label)
+    {
+      for (int i = 0; i < TILE_PX; ++i)
+      {
+        target[i * line_size + label * TILE_PX + line] = source[line * line_size + label * TILE_PX + i];
+      }
+    }
+  }
 }
 
 }  // namespace
 
-void aggregateRowPlain(const PathRow& row, std::uint16_t* states)
+void aggregateTilePlain(const PathTile& tile)
 {
-  const auto pitch = static_cast<std::size_t>(row.pitch);
-  const std::size_t state_stride = pitch + 2 * STATE_GUARD;
-  std::fill(row.sums, row.sums + static_cast<std::size_t>(row.width) * pitch, std::uint16_t{0});
-  for (const bool backward : {false, true})
+  const std::ptrdiff_t line_size = static_cast<std::ptrdiff_t>(tile.labels) * TILE_PX;
+  for (int step = 0; step < tile.lines; ++step)
   {
-    std::uint16_t* before = states + STATE_GUARD;
-    std::uint16_t* after = before + state_stride;
-    std::uint16_t minimum = 0;
-    for (int i = 0; i < row.width; ++i)
+    const int line = tile.backward ? tile.lines - 1 - step : step;
+    std::uint16_t* const sums = tile.sums + line * line_size;
+    for (int i = 0; i < TILE_PX; ++i)
     {
-      const int x = backward ? row.width - 1 - i : i;
-      const std::size_t offset = static_cast<std::size_t>(x) * pitch;
-      const int p2 = i == 0 ? 0 : row.p2[backward ? x + 1 : x];
-      minimum = i == 0 ? firstStep(row.cost + offset, row.pitch, after)
-                       : pathStep(row.cost + offset, before, minimum, row.p1, p2, row.pitch, after);
-      for (std::size_t label = 0; label < pitch; ++label)
-      {
-        row.sums[offset + label] = static_cast<std::uint16_t>(row.sums[offset + label] + after[label]);
-      }
-      std::swap(before, after);
+      pathStep(tile.cost + line * line_size + i, tile.labels, tile.p1, tile.p2[line * tile.p2_stride + i],
+               tile.state + i, tile.minima[i]);
+    }
+    for (std::ptrdiff_t k = 0; k < line_size; ++k)
+    {
+      sums[k] = static_cast<std::uint16_t>(tile.add ? sums[k] + tile.state[k] : tile.state[k]);
     }
   }
 }
 
-void aggregateStepPlain(const PathRow& row, bool first, const std::uint16_t* before, std::uint16_t* after,
-                        std::uint16_t* minima)
+void transposeTilePlain(const std::uint8_t* source, int labels, std::uint8_t* target)
 {
-  const auto pitch = static_cast<std::size_t>(row.pitch);
-  const std::size_t state_stride = pitch + 2 * STATE_GUARD;
-  for (int x = 0; x < row.width; ++x)
-  {
-    const std::size_t offset = static_cast<std::size_t>(x) * pitch;
-    const std::size_t state = static_cast<std::size_t>(x) * state_stride + STATE_GUARD;
-    minima[x] = first ? firstStep(row.cost + offset, row.pitch, after + state)
-                      : pathStep(row.cost + offset, before + state, minima[x], row.p1, row.p2[x], row.pitch,
-                                 after + state);
-    for (std::size_t label = 0; label < pitch; ++label)
-    {
-      row.sums[offset + label] = static_cast<std::uint16_t>(row.sums[offset + label] + after[state + label]);
-    }
-  }
+  transposePlain(source, labels, target);
 }
 
-void selectLabelsPlain(const std::uint16_t* sums, int width, int labels, int pitch, float* best)
+void transposeTilePlain(const std::uint16_t* source, int labels, std::uint16_t* target)
 {
-  for (int x = 0; x < width; ++x)
+  transposePlain(source, labels, target);
+}
+
+void selectLabelsPlain(const std::uint16_t* sums, int labels, int first_label, float* best)
+{
+  for (int i = 0; i < TILE_PX; ++i)
   {
-    const std::uint16_t* const pixel = sums + static_cast<std::size_t>(x) * static_cast<std::size_t>(pitch);
-    const auto label = static_cast<int>(std::min_element(pixel, pixel + labels) - pixel);
+    const auto sum = [&](int label) { return sums[static_cast<std::ptrdiff_t>(label) * TILE_PX + i]; };
+    int label = 0;
+    for (int other = 1; other < labels; ++other)
+    {
+      label = sum(other) < sum(label) ? other : label;
+    }
     float shift = 0.0F;
     if (label > 0 && label + 1 < labels)
     {
-      const int below = pixel[label - 1] - pixel[label];
-      const int above = pixel[label + 1] - pixel[label];
+      const int below = sum(label - 1) - sum(label);
+      const int above = sum(label + 1) - sum(label);
       const int steeper = std::max(below, above);
       shift = steeper > 0 ? 0.5F * static_cast<float>(below - above) / static_cast<float>(steeper) : 0.0F;
     }
-    best[x] = static_cast<float>(label) + shift;
+    best[i] = static_cast<float>(first_label + label) + shift;
   }
 }
 

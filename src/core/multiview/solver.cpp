@@ -72,7 +72,12 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
   cost.min_seeing_views = std::min(cost.min_seeing_views, static_cast<int>(views_.views.size()));
   {
     const StageTimer timer(context, "cost");
-    cost_builder_.buildFromArms(views_, labels_, cost, context.pool, volume_);
+    bands_.setAll(views_.width(), views_.height(), labels_.count);
+    cost_builder_.buildFromArms(views_, labels_, bands_, cost, context.pool, volume_);
+  }
+  {
+    const StageTimer timer(context, "aggregate");
+    aggregator_.setGuide(guide(), settings.paths, context.pool);
   }
   aggregate(settings, context);
   if (settings.fuse_background)
@@ -90,7 +95,7 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
     }
     {
       const StageTimer timer(context, "visible cost");
-      cost_builder_.buildFromVisible(views_, labels_, surfaces_, cost, context.pool, volume_);
+      cost_builder_.buildFromVisible(views_, labels_, bands_, surfaces_, cost, context.pool, volume_);
       if (settings.fuse_background)
       {
         background_.hold(context.pool, volume_);
@@ -118,7 +123,7 @@ void Solver::aggregate(const SolverSettings& settings, RunContext& context)
 {
   {
     const StageTimer timer(context, "aggregate");
-    aggregator_.aggregate(volume_, guide(), settings.paths, context.pool, label_);
+    aggregator_.aggregate(volume_, settings.paths, context.pool, label_);
   }
   const StageTimer timer(context, "median");
   label_.convertTo(scratch_, CV_32F, labels_.step_px, labels_.first_px);

@@ -15,8 +15,6 @@ constexpr std::size_t VECTOR_OVERRUN = 64;
 
 /// A cost of this value means that every view that counts differs by the truncation or more.
 constexpr int FULL_COST = 240;
-/// Cost of the entries that only fill up the pitch of the volume.
-constexpr std::uint8_t PADDING_COST = 255;
 
 /// Catmull-Rom interpolation between taps[1] and taps[2] at `phase` / SUBPIXEL_PHASES, in 6-bit fixed point.
 void interpolateTaps(const std::array<const std::uint8_t*, 4>& taps, int phase, int count,
@@ -67,12 +65,6 @@ struct VisibleCostRow
 /// The cost of one label in one row over the views that see it. 0..FULL_COST.
 void visibleCostRow(const VisibleCostRow& row, std::uint8_t* cost);
 void visibleCostRowPlain(const VisibleCostRow& row, std::uint8_t* cost);
-
-/// cost[label * cost_stride + x] -> volume[x * labels + label]. @param labels, width multiples of 16
-void transposeCosts(const std::uint8_t* cost, std::size_t cost_stride, int labels, int width,
-                    std::uint8_t* volume);
-void transposeCostsPlain(const std::uint8_t* cost, std::size_t cost_stride, int labels, int width,
-                         std::uint8_t* volume);
 
 }  // namespace light_field_depth::multiview
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "light_field_depth/core/multiview/label_bands.h"
 #include "light_field_depth/core/multiview/label_space.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
 #include "light_field_depth/core/multiview/view_set.h"
@@ -15,23 +16,35 @@
 
 namespace light_field_depth::multiview
 {
-/// Matching cost of every pixel and label, 0..FULL_COST; the labels of a pixel lie together.
+/// Matching cost of every pixel and of the labels of its tile, 0..FULL_COST. A tile lies together, as
+/// [y][label][x] with TILE_PX values of each; what stands out of the image has any value.
 struct CostVolume
 {
   int width = 0;
   int height = 0;
-  int labels = 0;
-  int pitch = 0;         ///< bytes from pixel to pixel: labels rounded up; the rest is PADDING_COST
-  int padded_width = 0;  ///< pixels of a row in memory
+  LabelBands bands;
   std::vector<std::uint8_t> values;
 
-  /// Keeps the memory when it suffices.
-  void create(int width, int height, int labels);
-  std::size_t rowOffset(int y) const
+  /// Takes the bands and makes room for all labels everywhere. Keeps the memory when it suffices.
+  void create(int width, int height, const LabelBands& bands);
+  std::size_t size() const { return tileOffset(bands.rows(), 0); }
+  std::size_t tileOffset(int row, int column) const
   {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(padded_width) *
-           static_cast<std::size_t>(pitch);
+    const auto tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(bands.columns()) +
+                      static_cast<std::size_t>(column);
+    return tile * static_cast<std::size_t>(bands.labels()) * TILE_PX * TILE_PX;
   }
+
+  const LabelBand& bandAt(int x, int y) const { return bands.at(y / TILE_PX, x / TILE_PX); }
+  /// Where the cost of a label of the pixel's band is; that of the next label is TILE_PX further.
+  std::size_t index(int x, int y, int label) const
+  {
+    const LabelBand& band = bandAt(x, y);
+    const int line = (y % TILE_PX) * band.count + label - band.first;
+    return tileOffset(y / TILE_PX, x / TILE_PX) + static_cast<std::size_t>(line) * TILE_PX +
+           static_cast<std::size_t>(x % TILE_PX);
+  }
+  std::uint8_t at(int x, int y, int label) const { return values[index(x, y, label)]; }
 };
 
 /// Where the costs come from.
@@ -45,7 +58,7 @@ struct CostSettings
   int hidden_margin = 2;  ///< labels by which a surface must be nearer to hide a point
 };
 
-/// Fills cost volumes. Keeps its scratch memory; one call at a time.
+/// Fills cost volumes, in each tile the labels of its band. Keeps its scratch memory; one call at a time.
 class CostVolumeBuilder
 {
 public:
@@ -53,12 +66,13 @@ public:
   ~CostVolumeBuilder();
 
   /// The mean of the best arms, so that a point that an occluder hides from some is not charged for them.
-  void buildFromArms(const ViewSet& views, const LabelSpace& labels, const CostSettings& settings,
-                     ThreadPool& pool, CostVolume& volume);
+  void buildFromArms(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
+                     const CostSettings& settings, ThreadPool& pool, CostVolume& volume);
 
   /// The mean over the views that see the point, given the surfaces that each view sees.
-  void buildFromVisible(const ViewSet& views, const LabelSpace& labels, const VisibleSurfaces& surfaces,
-                        const CostSettings& settings, ThreadPool& pool, CostVolume& volume);
+  void buildFromVisible(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
+                        const VisibleSurfaces& surfaces, const CostSettings& settings, ThreadPool& pool,
+                        CostVolume& volume);
 
 private:
   struct Scratch;

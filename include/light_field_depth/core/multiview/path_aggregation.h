@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_PATH_AGGREGATION_H
 #define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_PATH_AGGREGATION_H
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -22,35 +23,43 @@ struct PathSettings
   float large_step_floor = 0.5F;  ///< P2 never falls below this many P1
 };
 
-/// Adds up the costs along the paths from the left, right, top and bottom, and takes the best label.
+/// Adds up the costs along the paths from the left, right, top and bottom, and takes the best label. Keeps
+/// its memory; one call at a time.
 class PathAggregator
 {
 public:
-  /// @param guide image whose edges lower P2: P2 = max(floor * P1, large_step / (1 + |change of colour|))
-  /// @param label CV_32FC1, sub-label position
-  void aggregate(const CostVolume& volume, const PlanarImage& guide, const PathSettings& settings,
-                 ThreadPool& pool, cv::Mat& label);
+  PathAggregator();
+  ~PathAggregator();
 
-  /// P2 of the last call between (x, y) and its left (upper) neighbour.
-  std::uint16_t stepLeft(int x, int y) const { return step_left_[index(x, y)]; }
-  std::uint16_t stepAbove(int x, int y) const { return step_above_[index(x, y)]; }
+  /// @param guide image whose edges lower P2: P2 = max(floor * P1, large_step / (1 + |change of colour|));
+  /// for
+  ///   the following calls of aggregate()
+  void setGuide(const PlanarImage& guide, const PathSettings& settings, ThreadPool& pool);
+
+  /// @param volume of the size of the guide  @param label CV_32FC1, sub-label position
+  void aggregate(const CostVolume& volume, const PathSettings& settings, ThreadPool& pool, cv::Mat& label);
+
+  /// P2 between (x, y) and its left (upper) neighbour.
+  std::uint16_t stepLeft(int x, int y) const { return step_left_[stepIndex(x, y)]; }
+  std::uint16_t stepAbove(int x, int y) const { return step_above_[stepIndex(x, y)]; }
 
 private:
-  std::size_t index(int x, int y) const
+  std::size_t stepIndex(int x, int y) const
   {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y) * step_stride_ + static_cast<std::size_t>(x);
   }
-  void prepareSteps(const PlanarImage& guide, const PathSettings& settings, ThreadPool& pool);
-  void aggregateRows(const CostVolume& volume, const PathSettings& settings, ThreadPool& pool);
-  void aggregateColumns(const CostVolume& volume, const PathSettings& settings, ThreadPool& pool,
-                        cv::Mat& label);
+  struct Scratch;
+  class Strip;
+  class Column;
+  std::unique_ptr<Scratch> takeScratch();
+  void giveBack(std::unique_ptr<Scratch> scratch);
 
-  int width_ = 0;
-  std::vector<std::uint16_t> sums_;        // [y][x][label], as the volume
+  std::vector<std::uint16_t> sums_;        // as CostVolume::values
+  std::size_t step_stride_ = 0;            // of a row of steps
   std::vector<std::uint16_t> step_left_;   // P2 between (x - 1, y) and (x, y)
   std::vector<std::uint16_t> step_above_;  // P2 between (x, y - 1) and (x, y)
-  std::vector<std::uint16_t> states_;      // one slice a chunk
-  std::vector<std::uint16_t> minima_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Scratch>> free_scratch_;
 };
 
 }  // namespace light_field_depth::multiview

@@ -4,44 +4,50 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "light_field_depth/core/multiview/label_bands.h"
+
 namespace light_field_depth::multiview
 {
 /// Recursion of semi-global matching along one path,
 ///   L(p, l) = C(p, l) + min(L(q, l), L(q, l - 1) + P1, L(q, l + 1) + P1, min L(q) + P2(p)) - min L(q),
-/// on 16-bit integers, for pixels whose `pitch` labels lie together (pitch a multiple of 16). Each kernel has
-/// a plain version that computes the same values.
+/// on 16-bit integers, for TILE_PX paths side by side. A tile consists of TILE_PX lines across its paths; a
+/// line has TILE_PX values for each label. Every kernel has a plain version that computes the same values.
 
-/// Guard entries on either side of the labels of a state.
-constexpr std::size_t STATE_GUARD = 16;
-constexpr std::uint16_t STATE_GUARD_VALUE = 0xFFFF;
+/// A state that is never chosen.
+constexpr std::uint16_t NO_STATE = 0xFFFF;
 
-struct PathRow
+struct PathTile
 {
-  const std::uint8_t* cost = nullptr;  ///< [width][pitch]
-  std::uint16_t* sums = nullptr;       ///< [width][pitch], where L is stored or added
-  int width = 0;
-  int pitch = 16;
+  const std::uint8_t* cost = nullptr;  ///< [line][label][TILE_PX]
+  std::uint16_t* sums = nullptr;       ///< the same shape; L is stored or added
+  bool add = false;
+  int labels = 0;
+  int lines = TILE_PX;
+  bool backward = false;  ///< begin with the last of the lines
   std::uint16_t p1 = 0;
-  const std::uint16_t* p2 = nullptr;  ///< [width]
+  /// P2 of the step to each line from the one before it on the path: TILE_PX values a line.
+  const std::uint16_t* p2 = nullptr;
+  std::ptrdiff_t p2_stride = 0;
+  /// L of the line before, and after the call L of the last line: [label][TILE_PX], with one more label on
+  /// either side that is NO_STATE. All 0 where the path begins.
+  std::uint16_t* state = nullptr;
+  std::uint16_t* minima = nullptr;  ///< [TILE_PX], the least of the state
 };
 
-/// Both horizontal paths over one row. sums is overwritten. p2[x] belongs to the step between x - 1 and x.
-/// @param states room for 4 * (pitch + 2 * STATE_GUARD), guards set by resetStates()
-void aggregateRow(const PathRow& row, std::uint16_t* states);
-void aggregateRowPlain(const PathRow& row, std::uint16_t* states);
+void aggregateTile(const PathTile& tile);
+void aggregateTilePlain(const PathTile& tile);
 
-/// One step of vertical paths, for all pixels of a row: reads the states of the previous row and writes those
-/// of this one, [width][pitch + 2 * STATE_GUARD]; the minimum of each pixel in `minima`. L is added to sums.
-/// With `first` the previous states are ignored: L = C.
-void aggregateStep(const PathRow& row, bool first, const std::uint16_t* before, std::uint16_t* after,
-                   std::uint16_t* minima);
-void aggregateStepPlain(const PathRow& row, bool first, const std::uint16_t* before, std::uint16_t* after,
-                        std::uint16_t* minima);
+/// [line][label][i] -> [i][label][line]: the same tile for the paths across.
+void transposeTile(const std::uint8_t* source, int labels, std::uint8_t* target);
+void transposeTile(const std::uint16_t* source, int labels, std::uint16_t* target);
+void transposeTilePlain(const std::uint8_t* source, int labels, std::uint8_t* target);
+void transposeTilePlain(const std::uint16_t* source, int labels, std::uint16_t* target);
 
-/// The label of least sum for each pixel, with the position between labels from a V fitted to the neighbours.
-/// @param labels that count, <= pitch; the rest must have PADDING_COST  @param best [width]
-void selectLabels(const std::uint16_t* sums, int width, int labels, int pitch, float* best);
-void selectLabelsPlain(const std::uint16_t* sums, int width, int labels, int pitch, float* best);
+/// The label of least sum in a line, with the position between labels from a V fitted to the neighbours; the
+/// lowest of several.
+/// @param sums [label][TILE_PX]  @param best [TILE_PX], first_label for the first label of the line
+void selectLabels(const std::uint16_t* sums, int labels, int first_label, float* best);
+void selectLabelsPlain(const std::uint16_t* sums, int labels, int first_label, float* best);
 
 }  // namespace light_field_depth::multiview
 

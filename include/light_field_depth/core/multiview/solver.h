@@ -10,6 +10,7 @@
 #include "light_field_depth/core/multiview/cost_volume.h"
 #include "light_field_depth/core/multiview/edge_aware_smoothing.h"
 #include "light_field_depth/core/multiview/edge_side.h"
+#include "light_field_depth/core/multiview/label_bands.h"
 #include "light_field_depth/core/multiview/label_space.h"
 #include "light_field_depth/core/multiview/path_aggregation.h"
 #include "light_field_depth/core/multiview/refinement.h"
@@ -68,6 +69,7 @@ private:
   ViewSet views_;
   PlanarImage colour_reference_;  ///< only where the views are grey and the light field is not
   LabelSpace labels_;
+  LabelBands bands_;
   CostVolumeBuilder cost_builder_;
   CostVolume volume_;
   PathAggregator aggregator_;
