@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
+#include "accuracy_table.h"
 #include "contestant.h"
+#include "scene.h"
 
 namespace light_field_depth::benchmark
 {
@@ -41,46 +41,34 @@ const std::vector<Variant>& variants()
   return all;
 }
 
-std::string accuracyText(const Evaluation& accuracy)
+std::vector<std::string> namesOf(const std::vector<Variant>& all)
 {
-  return fixed(accuracy.mse_100, 3) + " / " + fixed(accuracy.badpix_007, 2) + " / " +
-         fixed(accuracy.badpix_003, 1);
+  std::vector<std::string> names;
+  names.reserve(all.size());
+  for (const Variant& variant : all)
+  {
+    names.push_back(variant.name);
+  }
+  return names;
 }
 
 }  // namespace
 
 void ablate(const Settings& settings)
 {
-  Table table;
-  table.header = {"variant"};
-  nlohmann::ordered_json json = describeMachine(settings);
+  AccuracyTable table(settings, "variant", namesOf(variants()));
   const auto pipeline = std::make_shared<Pipeline>(settings.threads);
   std::vector<Contestant> contestants;
   for (const Variant& variant : variants())
   {
     contestants.push_back(makeContestant(variant, pipeline));
-    table.rows.push_back({variant.name});
   }
   for (const std::string& input : settings.inputs)
   {
     const Scene scene = readScene(input, settings.threads);
-    table.header.push_back(scene.name + ": MSE x 100 / BadPix 0.07 / 0.03 %");
-    table.header.emplace_back("ms");
-    const std::vector<Result> results = measure(scene, contestants, settings.runs);
-    for (std::size_t i = 0; i < results.size(); ++i)
-    {
-      table.rows[i].push_back(accuracyText(results[i].evaluation));
-      table.rows[i].push_back(fixed(results[i].timing.median(), 0));
-      nlohmann::ordered_json row;
-      row["scene"] = scene.name;
-      row["variant"] = results[i].name;
-      row["settings"] = variants()[i].settings;
-      row["time"] = toJson(results[i].timing);
-      row["accuracy"] = accuracyJson(results[i]);
-      json["rows"].push_back(row);
-    }
+    table.add(scene.name, measure(scene, contestants, settings.runs));
   }
-  publish(settings, "ablation", table, json);
+  table.publish("ablation");
 }
 
 }  // namespace light_field_depth::benchmark

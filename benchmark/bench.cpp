@@ -8,6 +8,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "ablation.h"
+#include "conditions.h"
 #include "kernel_benchmark.h"
 #include "light_fields.h"
 #include "profile.h"
@@ -26,10 +27,12 @@ struct Measurement
 };
 
 /// The first one is taken when none is named.
-constexpr std::array<Measurement, 5> MEASUREMENTS = {{
+constexpr std::array<Measurement, 6> MEASUREMENTS = {{
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
     {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
+    {"--conditions", "the default method with noise, with fewer views, in grey, with uneven exposure",
+     measureConditions},
     {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
     {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
     {"--profile", "where the time of a frame goes, and what the machine could do in it", profileFrame},

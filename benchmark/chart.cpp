@@ -136,7 +136,7 @@ private:
     }
     cv::rectangle(image_, PLOT, INK, 1);
     write(image_, chart_.x_name, {PLOT.x + PLOT.width / 2, PLOT.y + PLOT.height + 45}, Align::Centre);
-    write(image_, chart_.y_name, {PLOT.x - 8, PLOT.y - 8}, Align::Right);
+    write(image_, chart_.y_name, {PLOT.x - 8, PLOT.y - 18}, Align::Right);
   }
 
   void drawFit()

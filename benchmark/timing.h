@@ -23,8 +23,9 @@ struct Timing
 /// Of the values, the mean of the two in the middle where their number is even. @pre not empty
 double median(std::vector<double> values);
 
-/// Does every task in every round, so that a machine that changes its speed changes it for all. In each round
-/// a task runs twice, as in a stream of frames: once to fill its caches, and once on the clock.
+/// Does every task in every round, so that a machine that changes its speed changes it for all. Before it
+/// runs on the clock a task fills the caches by running once, as in a stream of frames; one that takes long
+/// does so in the first round only, since it does not find its data in a cache anyway.
 /// @return one entry a task
 std::vector<Timing> timeInRounds(const std::vector<std::function<void()>>& tasks, int rounds);
 
