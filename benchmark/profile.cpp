@@ -23,6 +23,7 @@ constexpr double PER_GIGA = 1e-9;
 constexpr double SECONDS_PER_MS = 1e-3;
 constexpr double PERCENT = 100.0;
 constexpr int MAX_LABELS = 240;
+constexpr double LEAST_SHOWN_MS = 0.05;
 const char* const REST = "the rest";
 
 struct StageProfile
@@ -31,7 +32,7 @@ struct StageProfile
   Timing timing;
 };
 
-/// Stages in the order of the pipeline, and what the frame takes besides them.
+/// Stages in the order of the pipeline, the same for every frame, and what the frame takes besides them.
 struct FrameProfile
 {
   std::vector<StageProfile> stages;
@@ -65,19 +66,29 @@ private:
   }
 };
 
-FrameProfile measure(const Scene& scene, const Settings& settings)
+struct Profiles
 {
-  Pipeline pipeline(settings.threads);
-  FrameProfile profile;
+  FrameProfile one_thread;
+  FrameProfile all_threads;
+};
+
+/// Frames on one thread and on all of them in turn.
+Profiles measure(const Scene& scene, const Settings& settings)
+{
+  Pipeline one_thread(1);
+  Pipeline all_threads(settings.threads);
+  Profiles profiles;
   for (int i = 0; i <= settings.runs; ++i)
   {
-    const PipelineResult result = pipeline.run(scene.light_field, {}, {});
-    if (i > 0)  // the first one allocates
+    const PipelineResult alone = one_thread.run(scene.light_field, {}, {});
+    const PipelineResult together = all_threads.run(scene.light_field, {}, {});
+    if (i > 0)  // the first ones allocate
     {
-      profile.add(result);
+      profiles.one_thread.add(alone);
+      profiles.all_threads.add(together);
     }
   }
-  return profile;
+  return profiles;
 }
 
 /// @pre the light field is a cross of nine views or has one, so that its unit of disparity is the method's
@@ -117,21 +128,23 @@ std::string rateText(double rate, double limit)
   return rate > 0.0 ? fixed(rate, 1) + " (" + fixed(PERCENT * rate / limit, 0) + " %)" : "";
 }
 
-void report(const StageProfile& profile, double total_ms, const StageWork& work, const MachineLimits& limits,
-            Table& table, nlohmann::ordered_json& json)
+void report(const StageProfile& profile, double alone_ms, double total_ms, const StageWork& work,
+            const MachineLimits& limits, Table& table, nlohmann::ordered_json& json)
 {
   const double milliseconds = profile.timing.median();
   const double seconds = milliseconds * SECONDS_PER_MS;
   const double gb_s = work.bytes * PER_GIGA / seconds;
   const double gops = work.operations * PER_GIGA / seconds;
-  table.rows.push_back(
-      {profile.stage, fixed(milliseconds, 1), fixed(PERCENT * milliseconds / total_ms, 0) + " %",
-       work.bytes > 0.0 ? fixed(work.bytes / BYTES_PER_MB, 0) : "", rateText(gb_s, limits.memory_triad_gb_s),
-       work.operations > 0.0 ? fixed(work.operations * PER_GIGA, 2) : "",
-       rateText(gops, peakOf(work.lane, limits))});
+  table.rows.push_back({profile.stage, fixed(milliseconds, 1),
+                        fixed(PERCENT * milliseconds / total_ms, 0) + " %", fixed(alone_ms / milliseconds, 1),
+                        work.bytes > 0.0 ? fixed(work.bytes / BYTES_PER_MB, 0) : "",
+                        rateText(gb_s, limits.memory_triad_gb_s),
+                        work.operations > 0.0 ? fixed(work.operations * PER_GIGA, 2) : "",
+                        rateText(gops, peakOf(work.lane, limits))});
   nlohmann::ordered_json row;
   row["stage"] = profile.stage;
   row["time"] = toJson(profile.timing);
+  row["one_thread_median_ms"] = alone_ms;
   row["bytes"] = work.bytes;
   row["operations"] = work.operations;
   row["peak_gops"] = peakOf(work.lane, limits);
@@ -143,7 +156,7 @@ void report(const StageProfile& profile, double total_ms, const StageWork& work,
 void profileFrame(const Settings& settings)
 {
   const Scene scene = readScene(settings.inputs.back(), settings.threads);
-  const FrameProfile profile = measure(scene, settings);
+  const auto [alone, profile] = measure(scene, settings);
   const MachineLimits limits = measureMachineLimits(settings.threads);
   const FrameSize frame = sizeOf(scene, profile.estimate);
   std::map<std::string, StageWork> work;
@@ -152,22 +165,26 @@ void profileFrame(const Settings& settings)
     work[stage.stage] = stage;
   }
   Table table;
-  table.header = {"stage",
-                  "ms",
-                  "of the frame",
-                  "MB moved",
-                  "GB/s (of memory's)",
-                  "10^9 operations",
-                  "10^9 a second (of the peak)"};
+  table.header = {"stage",           "ms",
+                  "of the frame",    "x as fast as one thread",
+                  "MB moved",        "GB/s (of memory's)",
+                  "10^9 operations", "10^9 a second (of the peak)"};
   nlohmann::ordered_json json = describeMachine(settings);
   json["scene"] = scene.name;
   json["limits"] = toJson(limits);
   json["total"] = toJson(profile.total);
-  for (const StageProfile& stage : profile.stages)
+  json["total_one_thread"] = toJson(alone.total);
+  for (std::size_t i = 0; i < profile.stages.size(); ++i)
   {
-    report(stage, profile.total.median(), work[stage.stage], limits, table, json);
+    const StageProfile& stage = profile.stages[i];
+    if (stage.timing.median() >= LEAST_SHOWN_MS)
+    {
+      report(stage, alone.stages[i].timing.median(), profile.total.median(), work[stage.stage], limits, table,
+             json);
+    }
   }
-  table.rows.push_back({"frame", fixed(profile.total.median(), 1), "", "", "", "", ""});
+  table.rows.push_back({"frame", fixed(profile.total.median(), 1), "",
+                        fixed(alone.total.median() / profile.total.median(), 1), "", "", "", ""});
   table.note = "`balanced` on " + scene.name + ", " + fixed(frame.views + 1.0, 0) + " views, " +
                fixed(frame.labels, 0) + " labels, " + std::to_string(settings.threads) +
                " threads, medians of " + std::to_string(settings.runs) + " frames. " + toText(limits);
