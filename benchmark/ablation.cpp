@@ -8,10 +8,7 @@
 
 namespace light_field_depth::benchmark
 {
-namespace
-{
-/// The first is what the others are compared with. A new ingredient joins with one line.
-const std::vector<Variant>& variants()
+const std::vector<Variant>& ablationVariants()
 {
   static const std::vector<Variant> all = {
       {"balanced", {}},
@@ -41,6 +38,8 @@ const std::vector<Variant>& variants()
   return all;
 }
 
+namespace
+{
 std::vector<std::string> namesOf(const std::vector<Variant>& all)
 {
   std::vector<std::string> names;
@@ -56,10 +55,10 @@ std::vector<std::string> namesOf(const std::vector<Variant>& all)
 
 void ablate(const Settings& settings)
 {
-  AccuracyTable table(settings, "variant", namesOf(variants()));
+  AccuracyTable table(settings, "variant", namesOf(ablationVariants()));
   const auto pipeline = std::make_shared<Pipeline>(settings.threads);
   std::vector<Contestant> contestants;
-  for (const Variant& variant : variants())
+  for (const Variant& variant : ablationVariants())
   {
     contestants.push_back(makeContestant(variant, pipeline));
   }

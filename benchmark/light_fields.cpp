@@ -11,9 +11,6 @@
 
 namespace light_field_depth::benchmark
 {
-namespace
-{
-/// A new preset or method joins the table with one line.
 const std::vector<Variant>& ownMethods()
 {
   static const std::vector<Variant> methods = {
@@ -24,6 +21,8 @@ const std::vector<Variant>& ownMethods()
   return methods;
 }
 
+namespace
+{
 /// What the others are compared with.
 constexpr const char* YARDSTICK = "OpenCV DIS, median of 16";
 

@@ -1,10 +1,16 @@
 #ifndef LIGHT_FIELD_DEPTH_BENCHMARK_LIGHT_FIELDS_H
 #define LIGHT_FIELD_DEPTH_BENCHMARK_LIGHT_FIELDS_H
 
+#include <vector>
+
+#include "contestant.h"
 #include "report_files.h"
 
 namespace light_field_depth::benchmark
 {
+/// The presets and methods of this package. A new one joins with one line.
+const std::vector<Variant>& ownMethods();
+
 /// Time and accuracy of whole light fields: the presets, the 2017 method, and what OpenCV offers, in one run.
 void compareMethods(const Settings& settings);
 

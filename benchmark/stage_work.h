@@ -37,9 +37,9 @@ struct StageWork
 
 /// Bytes are counted from the sizes of the arrays: every array that does not fit the cache of a core is read
 /// once and written once in each pass over the frame that uses it; what is kept for a few rows or columns
-/// (sub-pixel rows, states of paths, moments) is not counted. Operations are those of the inner loops, counted
-/// in the source, without addresses, loads and stores. All labels count in every search, also where the later
-/// ones try fewer.
+/// (sub-pixel rows, states of paths, moments) is not counted. Operations are those of the inner loops,
+/// counted in the source, without addresses, loads and stores. All labels count in every search, also where
+/// the later ones try fewer.
 std::vector<StageWork> stageWork(const FrameSize& frame);
 
 }  // namespace light_field_depth::benchmark
