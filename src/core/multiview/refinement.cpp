@@ -1,11 +1,11 @@
 #include "light_field_depth/core/multiview/refinement.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "light_field_depth/core/multiview/linearize_kernels.h"
+#include "light_field_depth/core/multiview/normal_equations.h"
 #include "spokes.h"
 
 namespace light_field_depth::multiview
@@ -17,53 +17,12 @@ constexpr int DIRECTION_PAIRS = 4;
 constexpr int RESIDUAL_RADIUS = 2;
 /// Added to residuals (three channels, averaged over views and pixels) before arms are compared.
 constexpr float RESIDUAL_FLOOR = 3.0F;
-constexpr float TINY = 1e-6F;
-/// Weights of the differences of the neighbours one and two pixels away.
-constexpr float NEAR_TAP = 8.0F / 12.0F;
-constexpr float FAR_TAP = 1.0F / 12.0F;
 constexpr std::size_t GRADIENT_PAD = 2;
-
-/// What is summed over the spokes of a pair of opposite arms, a row of numbers each: g is the derivative of
-/// a view's brightness by the disparity, the rest is that of the spokes. KG and KR have one row a channel.
-constexpr std::size_t MOMENT_GG = 0;
-constexpr std::size_t MOMENT_GR = 1;
-constexpr std::size_t MOMENT_KK = 2;
-constexpr std::size_t MOMENT_KG = 3;
-constexpr std::size_t MOMENT_KR = 6;
-constexpr std::size_t MOMENTS = 9;
 
 std::size_t roundUp(int value, int multiple)
 {
   const int rounded = (value + multiple - 1) / multiple * multiple;
   return static_cast<std::size_t>(rounded);
-}
-
-/// out[x] = sum of in over `radius` pixels left and right, the ends repeated.
-void boxRow(const float* in, int width, int radius, float* out)
-{
-  const auto clamped = [&](int x)
-  {
-    float sum = 0.0F;
-    for (int dx = -radius; dx <= radius; ++dx)
-    {
-      sum += in[std::clamp(x + dx, 0, width - 1)];
-    }
-    return sum;
-  };
-  for (int x = 0; x < radius; ++x)
-  {
-    out[x] = clamped(x);
-    out[width - 1 - x] = clamped(width - 1 - x);
-  }
-  for (int x = radius; x < width - radius; ++x)
-  {
-    float sum = 0.0F;
-    for (int dx = -radius; dx <= radius; ++dx)
-    {
-      sum += in[x + dx];
-    }
-    out[x] = sum;
-  }
 }
 
 }  // namespace
@@ -77,8 +36,10 @@ struct Linearizer::Scratch
   std::vector<float> gradients;       // of one row: [direction][channel][x]
   std::vector<float> samples;         // of one tile
   std::vector<float> disparity;       // of one row, padded
-  std::vector<float> columns;         // sums over the rows of a window
-  std::vector<float> boxes;           // sums over the window
+  std::vector<const float*> row_pointers;
+  std::vector<float> sums;       // over the rows of a window
+  std::vector<float> columns;    // rows of numbers about one row of the image
+  std::vector<float> solutions;  // of one row
 };
 
 Linearizer::Linearizer() = default;
@@ -131,8 +92,9 @@ public:
     scratch_.gradients.resize(2 * channels_ * stride_);
     scratch_.samples.resize(views.views.size() * channels_ * TILE_PIXELS);
     scratch_.disparity.assign(stride_, 0.0F);
-    scratch_.columns.resize(std::max<std::size_t>(MOMENTS, arms_) * stride_);
-    scratch_.boxes.resize(std::max<std::size_t>(MOMENTS, arms_) * stride_);
+    scratch_.sums.resize(pair_stride_);
+    scratch_.solutions.resize(3 * stride_);
+    scratch_.columns.resize(std::max(MOMENTS, arms_ + 1) * stride_);
   }
 
   void run(int first, int last)
@@ -209,196 +171,136 @@ private:
     }
   }
 
-  /// The derivatives of the refocused mean by x and y, by differences of four pixels.
-  void differentiate(int y) const
+  void differentiateRefocused(int y) const
   {
-    const std::size_t refocused_stride = stride_ + 2 * GRADIENT_PAD;
     for (std::size_t c = 0; c < channels_; ++c)
     {
-      const auto row = [&](int dy) { return refocusedRow(y + dy) + c * refocused_stride; };
-      const float* const here = row(0);
-      const float* const above2 = row(-2);
-      const float* const above = row(-1);
-      const float* const below = row(1);
-      const float* const below2 = row(2);
-      float* const along_x = scratch_.gradients.data() + c * stride_;
-      float* const along_y = scratch_.gradients.data() + (channels_ + c) * stride_;
-      for (int x = 0; x < width_; ++x)
+      DerivativeRow row;
+      for (int dy = -2; dy <= 2; ++dy)
       {
-        along_x[x] = NEAR_TAP * (here[x + 1] - here[x - 1]) - FAR_TAP * (here[x + 2] - here[x - 2]);
-        along_y[x] = NEAR_TAP * (below[x] - above[x]) - FAR_TAP * (below2[x] - above2[x]);
+        row.rows[dy + 2] = refocusedRow(y + dy) + c * (stride_ + 2 * GRADIENT_PAD);
       }
-    }
-  }
-
-  /// Sums over the rows y - radius .. y + radius, clamped into the image.
-  template <typename RowAt>
-  void sumRows(int y, int radius, std::size_t count, const RowAt& row_at, float* sums) const
-  {
-    for (int dy = -radius; dy <= radius; ++dy)
-    {
-      const float* const row = row_at(std::clamp(y + dy, 0, height_ - 1));
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        sums[i] = dy == -radius ? row[i] : sums[i] + row[i];
-      }
+      row.width = width_;
+      row.along_x = scratch_.gradients.data() + c * stride_;
+      row.along_y = scratch_.gradients.data() + (channels_ + c) * stride_;
+      differentiate(row);
     }
   }
 
   /// Adds up the arms of each pair of opposite directions, those that fit worse with less weight.
   void weighArms(int y) const
   {
-    const std::size_t width = stride_;
-    float* const boxes = scratch_.boxes.data();
-    for (std::size_t arm = 0; arm < arms_; ++arm)
-    {
-      sumResiduals(y, arm, scratch_.columns.data());
-      boxRow(scratch_.columns.data(), width_, RESIDUAL_RADIUS, boxes + arm * width);
-      constexpr float window = (2 * RESIDUAL_RADIUS + 1) * (2 * RESIDUAL_RADIUS + 1);
-      const float scale =
-          1.0F / (window * static_cast<float>(views_.arms[arm].last - views_.arms[arm].first));
-      for (std::size_t x = 0; x < width; ++x)
-      {
-        boxes[arm * width + x] = boxes[arm * width + x] * scale + RESIDUAL_FLOOR;
-      }
-    }
-    float* const smallest = scratch_.columns.data();
-    std::copy(boxes, boxes + width, smallest);
-    for (std::size_t i = width; i < arms_ * width; ++i)
-    {
-      smallest[i % width] = std::min(smallest[i % width], boxes[i]);
-    }
+    float* const lowest = scratch_.columns.data();
+    float* const boxes = lowest + stride_;
+    compareArms(y, lowest, boxes);
     if (y >= first_ && y < last_)
     {
       auto* const residual = result_.residual.ptr<float>(y);
-      for (int x = 0; x < width_; ++x)
-      {
-        residual[x] = smallest[x] - RESIDUAL_FLOOR;
-      }
+      std::transform(lowest, lowest + width_, residual, [](float value) { return value - RESIDUAL_FLOOR; });
     }
     for (const int pair : pairs_)
     {
       std::fill(pairRow(y, pair), pairRow(y, pair) + pair_stride_, 0.0F);
     }
-    differentiate(y);
+    differentiateRefocused(y);
     for (std::size_t arm = 0; arm < arms_; ++arm)
     {
-      float* const share = boxes + arm * width;
-      for (std::size_t x = 0; x < width; ++x)
-      {
-        const float ratio = smallest[x] / share[x];
-        share[x] = ratio * ratio * ratio * ratio;
-      }
+      float* const share = boxes + arm * stride_;
+      shareOfArm(lowest, width_, share);
       for (int spoke = spokes_.of_arm[arm].first; spoke < spokes_.of_arm[arm].last; ++spoke)
       {
-        addSpoke(y, static_cast<std::size_t>(spoke), share,
+        addSpoke(spokeAt(y, static_cast<std::size_t>(spoke), share),
                  pairRow(y, views_.arms[arm].direction % DIRECTION_PAIRS));
       }
     }
   }
 
-  /// Sums over the window's rows of the residuals of an arm.
-  void sumResiduals(int y, std::size_t arm, float* sums) const
+  /// The mean residual of each arm about the row's pixels, and that of the best arm.
+  void compareArms(int y, float* lowest, float* boxes) const
   {
-    std::fill(sums, sums + stride_, 0.0F);
-    for (int dy = -RESIDUAL_RADIUS; dy <= RESIDUAL_RADIUS; ++dy)
+    std::fill(lowest, lowest + width_, std::numeric_limits<float>::max());
+    for (std::size_t arm = 0; arm < arms_; ++arm)
     {
-      for (int spoke = spokes_.of_arm[arm].first; spoke < spokes_.of_arm[arm].last; ++spoke)
+      scratch_.row_pointers.clear();
+      for (int dy = -RESIDUAL_RADIUS; dy <= RESIDUAL_RADIUS; ++dy)
       {
-        const float* const row =
-            spokeRow(std::clamp(y + dy, 0, height_ - 1), static_cast<std::size_t>(spoke)) +
-            SPOKE_RESIDUAL * stride_;
-        for (std::size_t x = 0; x < stride_; ++x)
+        for (int spoke = spokes_.of_arm[arm].first; spoke < spokes_.of_arm[arm].last; ++spoke)
         {
-          sums[x] += row[x];
+          scratch_.row_pointers.push_back(
+              spokeRow(std::clamp(y + dy, 0, height_ - 1), static_cast<std::size_t>(spoke)) +
+              SPOKE_RESIDUAL * stride_);
         }
       }
+      sumRows(scratch_.row_pointers.data(), static_cast<int>(scratch_.row_pointers.size()),
+              static_cast<std::size_t>(width_), scratch_.sums.data());
+      float* const box = boxes + arm * stride_;
+      boxRow(scratch_.sums.data(), width_, RESIDUAL_RADIUS, box);
+      constexpr float window = (2 * RESIDUAL_RADIUS + 1) * (2 * RESIDUAL_RADIUS + 1);
+      const auto views = static_cast<float>(views_.arms[arm].last - views_.arms[arm].first);
+      scaleAndLower(1.0F / (window * views), RESIDUAL_FLOOR, width_, box, lowest);
     }
   }
 
-  /// With the derivative g = -k D of a view's brightness, where D is that of the refocused mean along the
-  /// spoke, adds the spoke to the normal equations.
-  void addSpoke(int y, std::size_t spoke, const float* share, float* target) const
+  SpokeRow spokeAt(int y, std::size_t spoke, const float* share) const
   {
-    const float* const moments = spokeRow(y, spoke);
-    const cv::Point2f direction = spokes_.directions[spoke];
-    const auto pixels = static_cast<std::size_t>(width_);
-    for (std::size_t x = 0; x < pixels; ++x)
+    SpokeRow row;
+    row.moments = spokeRow(y, spoke);
+    row.share = share;
+    row.along_x = scratch_.gradients.data();
+    row.along_y = scratch_.gradients.data() + channels_ * stride_;
+    row.direction_x = spokes_.directions[spoke].x;
+    row.direction_y = spokes_.directions[spoke].y;
+    row.channels = static_cast<int>(channels_);
+    row.width = width_;
+    row.stride = stride_;
+    return row;
+  }
+
+  /// Sums the moments of a pair over the window.
+  void sumWindow(int y, int pair) const
+  {
+    const int radius = settings_.window_radius;
+    scratch_.row_pointers.clear();
+    for (int dy = -radius; dy <= radius; ++dy)
     {
-      target[MOMENT_KK * stride_ + x] += share[x] * moments[SPOKE_KK * stride_ + x];
+      scratch_.row_pointers.push_back(pairRow(std::clamp(y + dy, 0, height_ - 1), pair));
     }
-    for (std::size_t c = 0; c < channels_; ++c)
+    sumRows(scratch_.row_pointers.data(), 2 * radius + 1, pair_stride_, scratch_.sums.data());
+    for (std::size_t moment = 0; moment < MOMENTS; ++moment)
     {
-      const float* const along_x = scratch_.gradients.data() + c * stride_;
-      const float* const along_y = scratch_.gradients.data() + (channels_ + c) * stride_;
-      const float* const moment_kr = moments + (SPOKE_KR + c) * stride_;
-      for (std::size_t x = 0; x < pixels; ++x)
-      {
-        const float slope = direction.x * along_x[x] + direction.y * along_y[x];
-        const float kk = share[x] * moments[SPOKE_KK * stride_ + x];
-        const float kr = share[x] * moment_kr[x];
-        target[MOMENT_GG * stride_ + x] += kk * slope * slope;
-        target[MOMENT_GR * stride_ + x] -= kr * slope;
-        target[(MOMENT_KG + c) * stride_ + x] -= kk * slope;
-        target[(MOMENT_KR + c) * stride_ + x] += kr;
-      }
+      boxRow(scratch_.sums.data() + moment * stride_, width_, radius,
+             scratch_.columns.data() + moment * stride_);
     }
   }
 
-  /// Eliminates the slope of the brightness from the normal equations of each pair, and solves.
+  /// The minimum of all pairs together.
   void solve(int y) const
   {
-    const std::size_t width = stride_;
-    auto* const weight = result_.weight.ptr<float>(y);
-    auto* const target = result_.target.ptr<float>(y);
-    const auto* const disparity = disparity_.ptr<float>(y);
-    const auto pixels = static_cast<std::size_t>(width_);
-    std::fill(weight, weight + pixels, 0.0F);
-    std::fill(target, target + pixels, 0.0F);
-    auto* const disagreement = result_.disagreement.ptr<float>(y);
-    std::fill(disagreement, disagreement + pixels, 0.0F);
+    float* const solutions = scratch_.solutions.data();
+    std::fill(solutions, solutions + 3 * stride_, 0.0F);
+    const SolutionRow solution{solutions, solutions + stride_, solutions + 2 * stride_};
     for (const int pair : pairs_)
     {
-      sumRows(
-          y, settings_.window_radius, pair_stride_, [&](int row) { return pairRow(row, pair); },
-          scratch_.columns.data());
-      float* const box = scratch_.boxes.data();
-      for (std::size_t moment = 0; moment < MOMENTS; ++moment)
-      {
-        boxRow(scratch_.columns.data() + moment * width, width_, settings_.window_radius,
-               box + moment * width);
-      }
-      const float enabled = settings_.brightness_slope ? 1.0F : 0.0F;
-      for (std::size_t x = 0; x < pixels; ++x)
-      {
-        const float inverse = enabled / (box[MOMENT_KK * width + x] + TINY);
-        float curvature = box[MOMENT_GG * width + x];
-        float gradient = -box[MOMENT_GR * width + x];
-        for (std::size_t c = 0; c < channels_; ++c)
-        {
-          const float kg = box[(MOMENT_KG + c) * width + x];
-          const float kr = box[(MOMENT_KR + c) * width + x];
-          curvature -= kg * kg * inverse;
-          gradient += kg * kr * inverse;
-        }
-        curvature = std::max(0.0F, curvature);
-        weight[x] += curvature;
-        target[x] += gradient;
-        disagreement[x] += gradient * gradient / (curvature + TINY);
-      }
+      sumWindow(y, pair);
+      PairRow row;
+      row.moments = scratch_.columns.data();
+      row.brightness_slope = settings_.brightness_slope;
+      row.channels = static_cast<int>(channels_);
+      row.width = width_;
+      row.stride = stride_;
+      addPair(row, solution);
     }
-    const float window =
-        static_cast<float>((2 * settings_.window_radius + 1) * (2 * settings_.window_radius + 1));
-    const float limit = settings_.max_step_px;
-    for (std::size_t x = 0; x < pixels; ++x)
-    {
-      const float minimum = target[x] / (weight[x] + TINY);
-      const float spread = disagreement[x] / (weight[x] + TINY) - minimum * minimum;
-      disagreement[x] = std::sqrt(std::max(0.0F, spread));
-      const float step = std::clamp(minimum, -limit, limit);
-      target[x] = disparity[x] + step;
-      weight[x] = std::min(weight[x] / window, settings_.max_weight);
-    }
+    FinalRow row;
+    std::copy_n(disparity_.ptr<float>(y), width_, scratch_.disparity.data());
+    row.disparity = scratch_.disparity.data();
+    row.window = static_cast<float>((2 * settings_.window_radius + 1) * (2 * settings_.window_radius + 1));
+    row.max_step_px = settings_.max_step_px;
+    row.max_weight = settings_.max_weight;
+    row.width = width_;
+    solveRow(row, solution);
+    std::copy_n(solution.curvature, width_, result_.weight.ptr<float>(y));
+    std::copy_n(solution.gradient, width_, result_.target.ptr<float>(y));
+    std::copy_n(solution.disagreement, width_, result_.disagreement.ptr<float>(y));
   }
 
   const ViewSet& views_;
