@@ -107,54 +107,97 @@ void EdgeAwareSmoother::updateLinks(const SmoothingSettings& settings, const cv:
                    });
 }
 
+/// A row of the system, given the rows above and below.
+struct EdgeAwareSmoother::Row
+{
+  const float* weight;
+  const float* target;
+  const float* left;
+  const float* up;
+  const float* down;
+  float has_down;
+  const float* above;
+  const float* below;
+  float* values;
+};
+
+EdgeAwareSmoother::Row EdgeAwareSmoother::rowOf(const cv::Mat& weight, const cv::Mat& target, int y,
+                                                cv::Mat& disparity) const
+{
+  const bool has_below = y + 1 < disparity.rows;
+  const int next = has_below ? y + 1 : y;
+  return {weight.ptr<float>(y),
+          target.ptr<float>(y),
+          link_left_.ptr<float>(y),
+          link_above_.ptr<float>(y),
+          link_above_.ptr<float>(next),
+          has_below ? 1.0F : 0.0F,
+          disparity.ptr<float>(std::max(y - 1, 0)),
+          disparity.ptr<float>(next),
+          disparity.ptr<float>(y)};
+}
+
+/// Elimination along COUNT rows at once: each step waits for the one before it, so a processor that has
+/// several rows in hand waits less.
+template <int COUNT>
+void EdgeAwareSmoother::solveTogether(const std::array<Row, ROWS_AT_ONCE>& rows, int width,
+                                      std::vector<Elimination>& scratch)
+{
+  std::array<Elimination, COUNT> before{};
+  Elimination* const eliminations = scratch.data();
+  for (int x = 0; x < width; ++x)
+  {
+    for (std::size_t r = 0; r < COUNT; ++r)
+    {
+      const Row& row = rows[r];
+      const float right_link = x + 1 < width ? row.left[x + 1] : 0.0F;
+      const float down_link = row.has_down * row.down[x];
+      const float data = row.weight[x] + TINY_WEIGHT;
+      const float diagonal = data + row.left[x] + right_link + row.up[x] + down_link;
+      const float side = data * row.target[x] + row.up[x] * row.above[x] + down_link * row.below[x];
+      const float inverse = 1.0F / (diagonal - row.left[x] * before[r].factor);
+      before[r].factor = right_link * inverse;
+      before[r].value = (side + row.left[x] * before[r].value) * inverse;
+      eliminations[static_cast<std::size_t>(x) * COUNT + r] = before[r];
+    }
+  }
+  std::array<float, COUNT> next{};
+  for (int x = width - 1; x >= 0; --x)
+  {
+    for (std::size_t r = 0; r < COUNT; ++r)
+    {
+      const Elimination& here = eliminations[static_cast<std::size_t>(x) * COUNT + r];
+      next[r] = here.value + here.factor * next[r];
+      rows[r].values[x] = next[r];
+    }
+  }
+}
+
 /// Every second row, given the rows between them.
 void EdgeAwareSmoother::solveRows(const cv::Mat& weight, const cv::Mat& target, int parity, ThreadPool& pool,
                                   cv::Mat& disparity) const
 {
   const int width = disparity.cols;
-  const int height = disparity.rows;
-  const auto solve = [&](int y, std::vector<float>& factor, std::vector<float>& value)
-  {
-    const auto* const w = weight.ptr<float>(y);
-    const auto* const t = target.ptr<float>(y);
-    const auto* const left = link_left_.ptr<float>(y);
-    const auto* const up = link_above_.ptr<float>(y);
-    const bool has_below = y + 1 < height;
-    const auto* const down = link_above_.ptr<float>(has_below ? y + 1 : y);
-    const auto* const row_above = disparity.ptr<float>(std::max(y - 1, 0));
-    const auto* const row_below = disparity.ptr<float>(has_below ? y + 1 : y);
-    float before_factor = 0.0F;
-    float before_value = 0.0F;
-    for (int x = 0; x < width; ++x)
-    {
-      const float right_link = x + 1 < width ? left[x + 1] : 0.0F;
-      const float down_link = has_below ? down[x] : 0.0F;
-      const float data = w[x] + TINY_WEIGHT;
-      const float diagonal = data + left[x] + right_link + up[x] + down_link;
-      const float side = data * t[x] + up[x] * row_above[x] + down_link * row_below[x];
-      const float inverse = 1.0F / (diagonal - left[x] * before_factor);
-      before_factor = right_link * inverse;
-      before_value = (side + left[x] * before_value) * inverse;
-      factor[static_cast<std::size_t>(x)] = before_factor;
-      value[static_cast<std::size_t>(x)] = before_value;
-    }
-    auto* const row = disparity.ptr<float>(y);
-    float next = 0.0F;
-    for (int x = width - 1; x >= 0; --x)
-    {
-      next = value[static_cast<std::size_t>(x)] + factor[static_cast<std::size_t>(x)] * next;
-      row[x] = next;
-    }
-  };
-  const int pairs = (height - parity + 1) / 2;
+  const int pairs = (disparity.rows - parity + 1) / 2;
   pool.parallelFor(0, pairs, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
-                     std::vector<float> factor(static_cast<std::size_t>(width));
-                     std::vector<float> value(static_cast<std::size_t>(width));
-                     for (int pair = first; pair < last; ++pair)
+                     std::vector<Elimination> scratch(ROWS_AT_ONCE * static_cast<std::size_t>(width));
+                     std::array<Row, ROWS_AT_ONCE> rows{};
+                     int pair = first;
+                     for (; pair + ROWS_AT_ONCE <= last; pair += ROWS_AT_ONCE)
                      {
-                       solve(2 * pair + parity, factor, value);
+                       for (int r = 0; r < ROWS_AT_ONCE; ++r)
+                       {
+                         rows[static_cast<std::size_t>(r)] =
+                             rowOf(weight, target, 2 * (pair + r) + parity, disparity);
+                       }
+                       solveTogether<ROWS_AT_ONCE>(rows, width, scratch);
+                     }
+                     for (; pair < last; ++pair)
+                     {
+                       rows[0] = rowOf(weight, target, 2 * pair + parity, disparity);
+                       solveTogether<1>(rows, width, scratch);
                      }
                    });
 }

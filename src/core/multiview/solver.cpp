@@ -27,6 +27,23 @@ void save(const RunContext& context, const char* name, const cv::Mat& values)
   }
 }
 
+/// cv::medianBlur, in bands of rows on the pool.
+void medianOfRows(const cv::Mat& values, ThreadPool& pool, cv::Mat& medians)
+{
+  constexpr int rows_per_chunk = 64;
+  constexpr int radius = MEDIAN_SIZE / 2;
+  medians.create(values.size(), values.type());
+  pool.parallelFor(0, values.rows, rows_per_chunk,
+                   [&](int first, int last)
+                   {
+                     const int above = std::max(first - radius, 0);
+                     const int below = std::min(last + radius, values.rows);
+                     cv::Mat band;
+                     cv::medianBlur(values.rowRange(above, below), band, MEDIAN_SIZE);
+                     band.rowRange(first - above, last - above).copyTo(medians.rowRange(first, last));
+                   });
+}
+
 }  // namespace
 
 void Solver::run(const LightField& light_field, const SolverSettings& settings, RunContext& context)
@@ -127,7 +144,7 @@ void Solver::aggregate(const SolverSettings& settings, RunContext& context)
   }
   const StageTimer timer(context, "median");
   label_.convertTo(scratch_, CV_32F, labels_.step_px, labels_.first_px);
-  cv::medianBlur(scratch_, disparity_, MEDIAN_SIZE);
+  medianOfRows(scratch_, context.pool, disparity_);
   if (settings.keep_thin_structures)
   {
     keepThinStructures(guide(), scratch_, settings.thin_structures, context.pool, disparity_);

@@ -3,6 +3,9 @@
 
 #include <vector>
 
+#include <array>
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/multiview/view_set.h"
@@ -33,6 +36,18 @@ public:
 
 private:
   void updateLinks(const SmoothingSettings& settings, const cv::Mat& disparity, ThreadPool& pool);
+  static constexpr int ROWS_AT_ONCE = 4;
+  struct Row;
+  /// x = value + factor * (the unknown to the right)
+  struct Elimination
+  {
+    float factor = 0.0F;
+    float value = 0.0F;
+  };
+  Row rowOf(const cv::Mat& weight, const cv::Mat& target, int y, cv::Mat& disparity) const;
+  template <int COUNT>
+  static void solveTogether(const std::array<Row, ROWS_AT_ONCE>& rows, int width,
+                            std::vector<Elimination>& scratch);
   void solveRows(const cv::Mat& weight, const cv::Mat& target, int parity, ThreadPool& pool,
                  cv::Mat& disparity) const;
   void solveColumns(const cv::Mat& weight, const cv::Mat& target, ThreadPool& pool, cv::Mat& disparity);
