@@ -31,6 +31,9 @@ constexpr float SMALL_OBJECT_FRACTION = 0.25F;
 /// The third sweep looks this many labels beyond what the second found, which could not resolve more.
 constexpr float MARGIN_LABELS = 1.5F;
 
+/// Noise makes the ends of the range uncertain by this much.
+constexpr float PAD_LABELS_OF_NOISE = 0.5F;
+
 /// The grey view at two scales.
 struct SmallView
 {
@@ -116,7 +119,8 @@ public:
     {
       range_ = {0.0F, 0.0F};
     }
-    const float pad = std::max(options.pad_fraction * (range_.max - range_.min), options.pad_labels * step_);
+    const float pad_labels = options.pad_labels + (noisy_ ? PAD_LABELS_OF_NOISE : 0.0F);
+    const float pad = std::max(options.pad_fraction * (range_.max - range_.min), pad_labels * step_);
     return {range_.min - pad, range_.max + pad};
   }
 
@@ -138,6 +142,7 @@ private:
     forEachSmallView([&](std::size_t i)
                      { small_[i] = shrink(views[i]->image, fine_halvings_, coarse_halvings_); });
     const int fine_blur = blurFor(small_.front().fine);
+    noisy_ = fine_blur > 1;
     const int coarse_blur = blurFor(small_.front().coarse);
     forEachSmallView(
         [&](std::size_t i)
@@ -227,6 +232,7 @@ private:
   DisparityRange resolved_{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
   float step_ = 0.0F;
   bool found_ = false;
+  bool noisy_ = false;
 };
 
 }  // namespace

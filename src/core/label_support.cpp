@@ -1,6 +1,7 @@
 #include "label_support.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -177,7 +178,53 @@ private:
   std::vector<int> patch_;
 };
 
-/// Widens the core by the labels of connected patches that are certain of them or that no label inside the
+/// What the pixels of a patch say together.
+struct PatchEvidence
+{
+  int certain = 0;  ///< pixels
+  double cost = 0.0;
+  double rival = 0.0;
+  std::vector<int> labels;  ///< in ascending order
+};
+
+PatchEvidence gatherEvidence(const std::vector<int>& patch, const Winners& winners, const Contrast& contrast)
+{
+  PatchEvidence evidence;
+  evidence.labels.reserve(patch.size());
+  for (const int pixel : patch)
+  {
+    const auto i = static_cast<std::size_t>(pixel);
+    evidence.certain += isCertain(winners, i, contrast) ? 1 : 0;
+    evidence.cost += winners.cost[i];
+    evidence.rival += winners.rival[i];
+    evidence.labels.push_back(winners.label[i]);
+  }
+  std::sort(evidence.labels.begin(), evidence.labels.end());
+  return evidence;
+}
+
+/// The labels that a patch speaks for, if any: enough of its pixels are certain, or it is so large that its
+/// rivals cost more on the whole, which averages the noise of single pixels away. The outermost labels are
+/// left out; where single pixels are uncertain they are often wrong.
+std::optional<LabelRange> labelsOf(const PatchEvidence& evidence)
+{
+  constexpr int LEAST_CERTAIN_PX = 8;
+  constexpr double LEAST_RATIO = 1.1;
+  constexpr double RATIO_OF_ONE_PIXEL = 7.5;
+  constexpr double LEFT_OUT_OF_CERTAIN = 0.05;
+  constexpr double LEFT_OUT_OF_UNCERTAIN = 0.25;
+  const auto pixels = static_cast<double>(evidence.labels.size());
+  const bool certain = evidence.certain >= LEAST_CERTAIN_PX;
+  if (!certain && evidence.rival < (LEAST_RATIO + RATIO_OF_ONE_PIXEL / std::sqrt(pixels)) * evidence.cost)
+  {
+    return std::nullopt;
+  }
+  const double fraction = 2 * evidence.certain >= pixels ? LEFT_OUT_OF_CERTAIN : LEFT_OUT_OF_UNCERTAIN;
+  const auto left_out = static_cast<std::size_t>(fraction * pixels);
+  return LabelRange{evidence.labels[left_out], evidence.labels[evidence.labels.size() - 1 - left_out]};
+}
+
+/// Widens the core by the labels of connected patches of pixels that are certain or that no label inside the
 /// core explains.
 LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners& winners,
                  const Contrast& contrast)
@@ -200,15 +247,12 @@ LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners
       continue;
     }
     const std::vector<int>& patch = finder.patchAt(i);
-    if (patch.size() < LEAST_PATCH_PX)
+    const std::optional<LabelRange> labels =
+        patch.size() < LEAST_PATCH_PX ? std::nullopt : labelsOf(gatherEvidence(patch, winners, contrast));
+    if (labels)
     {
-      continue;
-    }
-    for (const int pixel : patch)
-    {
-      const int label = winners.label[static_cast<std::size_t>(pixel)];
-      supported.first = std::min(supported.first, label);
-      supported.last = std::max(supported.last, label);
+      supported.first = std::min(supported.first, labels->first);
+      supported.last = std::max(supported.last, labels->last);
     }
   }
   return supported;
