@@ -11,6 +11,7 @@
 #include "conditions.h"
 #include "kernel_benchmark.h"
 #include "light_fields.h"
+#include "memory.h"
 #include "profile.h"
 #include "report_files.h"
 #include "scaling.h"
@@ -27,7 +28,7 @@ struct Measurement
 };
 
 /// The first one is taken when none is named.
-constexpr std::array<Measurement, 6> MEASUREMENTS = {{
+constexpr std::array<Measurement, 7> MEASUREMENTS = {{
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
     {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
@@ -35,6 +36,7 @@ constexpr std::array<Measurement, 6> MEASUREMENTS = {{
      measureConditions},
     {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
     {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
+    {"--memory", "the most memory that the process holds", measureMemory},
     {"--profile", "where the time of a frame goes, and what the machine could do in it", profileFrame},
 }};
 
