@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <sstream>
+#include <type_traits>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -12,15 +15,18 @@
 #include "light_field_depth/core/exposure.h"
 #include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/noise.h"
+#include "light_field_depth/core/multiview/sequence.h"
 #include "light_field_depth/core/multiview/solver.h"
 #include "light_field_depth/core/multiview/upsampling.h"
 #include "light_field_depth/core/multiview/view_maps.h"
 #include "light_field_depth/core/noise_estimate.h"
+#include "light_field_depth/core/options_visitor.h"
 
 namespace light_field_depth
 {
 namespace
 {
+using multiview::SceneMeasures;
 using multiview::SolverSettings;
 
 /// The settings are meant for this distance of the outermost view, in grid steps.
@@ -90,15 +96,36 @@ int refinementsOf(const MultiviewOptions& options)
   return 2;
 }
 
-LightField withEqualExposure(const LightField& light_field, RunContext& context)
+/// Text that differs whenever a setting does.
+std::string textOf(const MultiviewOptions& options, const std::optional<DisparityRange>& range)
 {
-  const StageTimer timer(context, "exposure");
-  return compensateExposure(light_field, estimateExposure(light_field, context.pool), context.pool);
+  std::ostringstream text;
+  text.precision(9);
+  const auto append = [&](const char* name, const auto& value)
+  {
+    if constexpr (std::is_enum_v<std::remove_reference_t<decltype(value)>>)
+    {
+      text << name << ' ' << toString(value) << ' ';
+    }
+    else
+    {
+      text << name << ' ' << value << ' ';
+    }
+  };
+  visitMultiviewOptions(options, append);
+  if (range)
+  {
+    text << range->min << ' ' << range->max;
+  }
+  return text.str();
 }
 
-SolverSettings solverSettings(const MultiviewOptions& options)
+/// @param unit pixels of disparity of the solver in one of the light field
+SolverSettings solverSettings(const MultiviewOptions& options, const SceneMeasures& measures, double unit)
 {
   SolverSettings settings;
+  settings.range = {static_cast<float>(measures.range.min * unit),
+                    static_cast<float>(measures.range.max * unit)};
   settings.label_step_px = options.label_step_px;
   settings.grey_search =
       options.preset == MultiviewPreset::Realtime || options.preset == MultiviewPreset::Fast;
@@ -111,6 +138,8 @@ SolverSettings solverSettings(const MultiviewOptions& options)
   settings.refinements = refinementsOf(options);
   settings.linearization.brightness_slope = options.brightness_slope;
   settings.smoothing.strength = options.refinement_smoothness;
+  settings.watch_scene = options.temporal;
+  adaptToNoise(measures.noise_sigma, settings);
   return settings;
 }
 
@@ -163,6 +192,7 @@ std::vector<std::string> validate(const MultiviewOptions& options)
 /// What is kept from frame to frame.
 struct MultiviewEstimator::Buffers
 {
+  multiview::Sequence sequence;
   multiview::Solver solver;
   multiview::HalfResolution half;
 };
@@ -209,21 +239,65 @@ const LightField& MultiviewEstimator::reduced(const LightField& chosen, RunConte
 void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& request, RunContext& context,
                                DisparityEstimate& estimate)
 {
-  const LightField chosen = withEqualExposure(views, context);
+  if (options_.temporal && follow(views, request, context, estimate))
+  {
+    return;
+  }
+  SceneMeasures measures;
+  LightField chosen;
+  {
+    const StageTimer timer(context, "exposure");
+    measures.exposures = estimateExposure(views, context.pool);
+    chosen = compensateExposure(views, measures.exposures, context.pool);
+  }
   {
     const StageTimer timer(context, "range");
-    estimate.range =
+    measures.range =
         request.disparity_range ? *request.disparity_range : findDisparityRange(chosen, context.pool);
   }
-  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
-  SolverSettings settings = solverSettings(options_);
-  settings.range = {static_cast<float>(estimate.range.min * unit),
-                    static_cast<float>(estimate.range.max * unit)};
   {
     const StageTimer timer(context, "noise");
-    adaptToNoise(estimateNoise(chosen.reference().image), settings);
+    measures.noise_sigma = estimateNoise(chosen.reference().image);
   }
-  buffers_->solver.run(scaledSteps(chosen, unit), settings, context);
+  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
+  buffers_->solver.run(scaledSteps(chosen, unit), solverSettings(options_, measures, unit), context);
+  estimate.range = measures.range;
+  keepResult(unit, estimate);
+  if (options_.temporal)
+  {
+    buffers_->sequence.begin(std::move(measures));
+  }
+}
+
+/// The frame with what was measured on the last one that was searched in full.
+/// @return false if it does not follow, or shows another scene
+bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& request, RunContext& context,
+                                DisparityEstimate& estimate)
+{
+  const SceneMeasures* const measures =
+      buffers_->sequence.follow(views, textOf(options_, request.disparity_range));
+  if (measures == nullptr)
+  {
+    return false;
+  }
+  LightField chosen;
+  {
+    const StageTimer timer(context, "exposure");
+    chosen = compensateExposure(views, measures->exposures, context.pool);
+  }
+  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
+  if (!buffers_->solver.follow(scaledSteps(chosen, unit), solverSettings(options_, *measures, unit), context))
+  {
+    return false;
+  }
+  estimate.range = measures->range;
+  keepResult(unit, estimate);
+  buffers_->sequence.keep();
+  return true;
+}
+
+void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) const
+{
   buffers_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
   estimate.confidence = buffers_->solver.confidence().clone();
 }

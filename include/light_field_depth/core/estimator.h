@@ -46,7 +46,8 @@ struct EstimateRequest
 };
 
 /// A method that finds the disparity of a light field. An estimator keeps its buffers from call to call; it
-/// is used by one thread at a time. The result depends neither on earlier calls nor on the number of threads.
+/// is used by one thread at a time. The result does not depend on the number of threads, nor on earlier calls
+/// unless an option for video asks for it (MultiviewOptions::temporal).
 class Estimator
 {
 public:

@@ -56,6 +56,10 @@ struct MultiviewOptions
   bool brightness_slope = true;
   /// Smoothness of the refinement; raise it for smoother surfaces.
   float refinement_smoothness = 200.0F;
+  /// For video: search near the last frame's result where the scene goes on, and in full where it changed.
+  /// The result still comes from each frame's own images, but may differ a little from that of the frame
+  /// alone.
+  bool temporal = false;
 };
 
 std::vector<std::string> validate(const MultiviewOptions& options);
@@ -79,6 +83,9 @@ private:
   const LightField& reduced(const LightField& chosen, RunContext& context);
   void solve(const LightField& views, const EstimateRequest& request, RunContext& context,
              DisparityEstimate& estimate);
+  bool follow(const LightField& views, const EstimateRequest& request, RunContext& context,
+              DisparityEstimate& estimate);
+  void keepResult(double unit, DisparityEstimate& estimate) const;
   void upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate);
 
   MultiviewOptions options_;

@@ -51,6 +51,26 @@ void visitPaper2017Options(Options& options, Visitor& visit)
   visit("variational_sor_omega", variational.sor_omega);
 }
 
+/// The part of visitOptions() that the multi-view method has for itself.
+/// @param options MultiviewOptions, const or not
+template <class Options, class Visitor>
+void visitMultiviewOptions(Options& options, Visitor& visit)
+{
+  static_assert(std::is_same_v<std::remove_const_t<Options>, MultiviewOptions>);
+  visit("multiview_preset", options.preset);
+  visit("multiview_label_step_px", options.label_step_px);
+  visit("multiview_small_change_penalty", options.small_change_penalty);
+  visit("multiview_large_change_penalty", options.large_change_penalty);
+  visit("multiview_visibility_passes", options.visibility_passes);
+  visit("multiview_background_fusion", options.background_fusion);
+  visit("multiview_thin_structures", options.thin_structures);
+  visit("multiview_edge_sides", options.edge_sides);
+  visit("multiview_refinements", options.refinements);
+  visit("multiview_brightness_slope", options.brightness_slope);
+  visit("multiview_refinement_smoothness", options.refinement_smoothness);
+  visit("multiview_temporal", options.temporal);
+}
+
 /// Calls visit(name, field) for every setting of a run: the one list of the names by which the command line,
 /// files, reports and parameter servers know the settings. A new setting is one more line here.
 ///
@@ -67,17 +87,7 @@ void visitOptions(Options& options, Visitor&& visit)
   visit("dense_cloud_min_confidence", options.dense_cloud.min_confidence);
   visit("dense_cloud_voxel_size_m", options.dense_cloud.voxel_size_m);
   visitPaper2017Options(options.paper2017, visit);
-  visit("multiview_preset", options.multiview.preset);
-  visit("multiview_label_step_px", options.multiview.label_step_px);
-  visit("multiview_small_change_penalty", options.multiview.small_change_penalty);
-  visit("multiview_large_change_penalty", options.multiview.large_change_penalty);
-  visit("multiview_visibility_passes", options.multiview.visibility_passes);
-  visit("multiview_background_fusion", options.multiview.background_fusion);
-  visit("multiview_thin_structures", options.multiview.thin_structures);
-  visit("multiview_edge_sides", options.multiview.edge_sides);
-  visit("multiview_refinements", options.multiview.refinements);
-  visit("multiview_brightness_slope", options.multiview.brightness_slope);
-  visit("multiview_refinement_smoothness", options.multiview.refinement_smoothness);
+  visitMultiviewOptions(options.multiview, visit);
 }
 
 /// @throw InputError that lists the names

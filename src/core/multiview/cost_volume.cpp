@@ -11,6 +11,7 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int TILE_ROWS_PER_CHUNK = 2;
+constexpr std::uint8_t NO_COST = 255;
 
 /// Half of the arms, as a number that the kernel can average.
 int bestArms(std::size_t arms)
@@ -54,7 +55,21 @@ struct CostVolumeBuilder::Scratch
   std::vector<const std::uint8_t*> surfaces;
   std::vector<const std::uint8_t*> shifted_pointers;  // where a run of tiles begins
   std::vector<const std::uint8_t*> shifted_surfaces;
-  std::vector<std::uint8_t> cost;  // of one label in one row
+  std::vector<std::uint8_t> cost;     // of one label in one row
+  std::vector<std::uint8_t> inside;   // least cost of the labels in the band, of a watched row
+  std::vector<std::uint8_t> outside;  // of the others
+};
+
+/// What to fill a volume with.
+struct CostVolumeBuilder::Task
+{
+  const ViewSet& views;
+  const LabelSpace& labels;
+  const CostSettings& settings;
+  const VisibleSurfaces* surfaces = nullptr;        ///< nullptr: from the arms
+  const std::vector<std::uint8_t>* only = nullptr;  ///< tiles to fill; nullptr: all
+  const WatchSettings* watch_settings = nullptr;    ///< with `watch`
+  SceneWatch* watch = nullptr;                      ///< nullptr: nobody watches
 };
 
 CostVolumeBuilder::CostVolumeBuilder() = default;
@@ -82,7 +97,29 @@ void CostVolumeBuilder::buildFromArms(const ViewSet& views, const LabelSpace& la
                                       const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
   volume.create(views.width(), views.height(), bands);
-  build(views, labels, nullptr, settings, pool, volume);
+  build({views, labels, settings}, pool, volume);
+}
+
+void CostVolumeBuilder::buildAndWatch(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
+                                      const CostSettings& settings, const WatchSettings& watch_settings,
+                                      ThreadPool& pool, CostVolume& volume, SceneWatch& watch)
+{
+  volume.create(views.width(), views.height(), bands);
+  watch.begin(bands);
+  Task task{views, labels, settings};
+  task.watch_settings = &watch_settings;
+  task.watch = &watch;
+  build(task, pool, volume);
+}
+
+void CostVolumeBuilder::rebuildTiles(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
+                                     const std::vector<std::uint8_t>& tiles, const CostSettings& settings,
+                                     ThreadPool& pool, CostVolume& volume)
+{
+  volume.bands = bands;
+  Task task{views, labels, settings};
+  task.only = &tiles;
+  build(task, pool, volume);
 }
 
 void CostVolumeBuilder::buildFromVisible(const ViewSet& views, const LabelSpace& labels,
@@ -90,19 +127,22 @@ void CostVolumeBuilder::buildFromVisible(const ViewSet& views, const LabelSpace&
                                          const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
   volume.create(views.width(), views.height(), bands);
-  build(views, labels, &surfaces, settings, pool, volume);
+  Task task{views, labels, settings};
+  task.surfaces = &surfaces;
+  build(task, pool, volume);
 }
 
 /// The rows of one chunk.
 struct CostVolumeBuilder::RowJob
 {
-  const ViewSet& views;
-  const LabelSpace& labels;
-  const VisibleSurfaces* surfaces;
-  const CostSettings& settings;
+  const Task& task;
   const std::vector<std::uint16_t>& arm_scales;
   Scratch& scratch;
   CostVolume& volume;
+  const ViewSet& views = task.views;
+  const LabelSpace& labels = task.labels;
+  const VisibleSurfaces* surfaces = task.surfaces;
+  const CostSettings& settings = task.settings;
 
   void begin() const
   {
@@ -119,13 +159,23 @@ struct CostVolumeBuilder::RowJob
 
   void run(int y) const
   {
-    const int tile_row = y / TILE_PX;
+    if (task.watch != nullptr && isWatchedRow(y))
+    {
+      runWatched(y);
+      return;
+    }
+    const int columns = volume.bands.columns();
     for (int label = 0; label < labels.count; ++label)
     {
       bool sampled = false;
-      for (int column = 0; column < volume.bands.columns(); ++column)
+      for (int column = 0; column < columns; ++column)
       {
-        if (!volume.bands.at(tile_row, column).contains(label))
+        int end = column;
+        while (end < columns && isWanted(y / TILE_PX, end, label))
+        {
+          ++end;
+        }
+        if (end == column)
         {
           continue;
         }
@@ -134,12 +184,11 @@ struct CostVolumeBuilder::RowJob
           sample(label, y);
           sampled = true;
         }
-        int end = column + 1;
-        while (end < volume.bands.columns() && volume.bands.at(tile_row, end).contains(label))
+        computeCost(label, y, column, end);
+        for (int tile = column; tile < end; ++tile)
         {
-          ++end;
+          store(label, y, tile, scratch.cost.data() + static_cast<std::ptrdiff_t>(tile - column) * TILE_PX);
         }
-        runTiles(label, y, column, end);
         column = end;
       }
     }
@@ -166,8 +215,52 @@ private:
     }
   }
 
-  /// One label in neighbouring tiles.
-  void runTiles(int label, int y, int first_column, int end_column) const
+  bool isWanted(int row, int column, int label) const
+  {
+    const auto tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(volume.bands.columns()) +
+                      static_cast<std::size_t>(column);
+    return volume.bands.at(row, column).contains(label) && (task.only == nullptr || (*task.only)[tile] != 0);
+  }
+
+  /// All labels in all tiles, of which those in the bands are stored.
+  void runWatched(int y) const
+  {
+    const int columns = volume.bands.columns();
+    const auto width = static_cast<std::size_t>(columns) * TILE_PX;
+    scratch.inside.assign(width, NO_COST);
+    scratch.outside.assign(width, NO_COST);
+    for (int label = 0; label < labels.count; ++label)
+    {
+      sample(label, y);
+      computeCost(label, y, 0, columns);
+      for (int column = 0; column < columns; ++column)
+      {
+        const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(column) * TILE_PX;
+        const bool inside = volume.bands.at(y / TILE_PX, column).contains(label);
+        std::uint8_t* const least = (inside ? scratch.inside : scratch.outside).data() + first;
+        const std::uint8_t* const cost = scratch.cost.data() + first;
+        for (int i = 0; i < TILE_PX; ++i)
+        {
+          least[i] = std::min(least[i], cost[i]);
+        }
+        if (inside)
+        {
+          store(label, y, column, cost);
+        }
+      }
+    }
+    for (int x = 0; x < views.width(); ++x)
+    {
+      const int inside = scratch.inside[static_cast<std::size_t>(x)];
+      const int outside = scratch.outside[static_cast<std::size_t>(x)];
+      TileSample& tile = task.watch->at(y / TILE_PX, x / TILE_PX);
+      tile.outside += outside + task.watch_settings->clearly_better < inside ? 1 : 0;
+      tile.unexplained += std::min(inside, outside) > task.watch_settings->unexplained_cost ? 1 : 0;
+    }
+  }
+
+  /// One label in neighbouring tiles, from the beginning of scratch.cost.
+  void computeCost(int label, int y, int first_column, int end_column) const
   {
     const int first_x = first_column * TILE_PX;
     const int width = std::min(end_column * TILE_PX, views.width()) - first_x;
@@ -179,14 +272,14 @@ private:
     {
       visibleCost(label, y, first_x, width);
     }
-    const std::uint8_t* cost = scratch.cost.data();
-    for (int column = first_column; column < end_column; ++column, cost += TILE_PX)
-    {
-      const LabelBand& band = volume.bands.at(y / TILE_PX, column);
-      const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(y % TILE_PX) * band.count + label - band.first;
-      std::copy_n(cost, TILE_PX,
-                  volume.values.data() + volume.tileOffset(y / TILE_PX, column) + line * TILE_PX);
-    }
+  }
+
+  void store(int label, int y, int column, const std::uint8_t* cost) const
+  {
+    const LabelBand& band = volume.bands.at(y / TILE_PX, column);
+    const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(y % TILE_PX) * band.count + label - band.first;
+    std::copy_n(cost, TILE_PX,
+                volume.values.data() + volume.tileOffset(y / TILE_PX, column) + line * TILE_PX);
   }
 
   static const std::uint8_t* const* shifted(const std::vector<const std::uint8_t*>& rows, int first_x,
@@ -234,15 +327,14 @@ private:
   }
 };
 
-void CostVolumeBuilder::build(const ViewSet& views, const LabelSpace& labels, const VisibleSurfaces* surfaces,
-                              const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
+void CostVolumeBuilder::build(const Task& task, ThreadPool& pool, CostVolume& volume)
 {
-  const auto scales = armScales(views, settings.truncation);
+  const auto scales = armScales(task.views, task.settings.truncation);
   pool.parallelFor(0, volume.bands.rows(), TILE_ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
                      auto scratch = takeScratch();
-                     const RowJob job{views, labels, surfaces, settings, scales, *scratch, volume};
+                     const RowJob job{task, scales, *scratch, volume};
                      job.begin();
                      for (int y = first * TILE_PX; y < std::min(last * TILE_PX, volume.height); ++y)
                      {

@@ -15,6 +15,9 @@ constexpr int MAX_LABELS = 240;
 /// more.
 constexpr int BAND_REACH_PX = 8;
 constexpr float BAND_MARGIN_LABELS = 4.0F;
+/// The same for the first search of a frame that follows another one, whose objects may have moved.
+constexpr int FOLLOWED_REACH_PX = 12;
+constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
 constexpr int MEDIAN_SIZE = 5;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
@@ -49,7 +52,21 @@ void medianOfRows(const cv::Mat& values, ThreadPool& pool, cv::Mat& medians)
 void Solver::run(const LightField& light_field, const SolverSettings& settings, RunContext& context)
 {
   prepare(light_field, settings, context);
-  search(settings, context);
+  solve(settings, SearchIn::AllLabels, context);
+}
+
+bool Solver::follow(const LightField& light_field, const SolverSettings& settings, RunContext& context)
+{
+  prepare(light_field, settings, context);
+  return solve(settings, SearchIn::BandsAroundLast, context);
+}
+
+bool Solver::solve(const SolverSettings& settings, SearchIn where, RunContext& context)
+{
+  if (!search(settings, where, context))
+  {
+    return false;
+  }
   if (settings.decide_edge_sides)
   {
     const StageTimer timer(context, "edge sides");
@@ -59,6 +76,7 @@ void Solver::run(const LightField& light_field, const SolverSettings& settings, 
   save(context, "multiview_searched", searched_);
   refine(settings, context);
   judge(settings, context);
+  return true;
 }
 
 void Solver::prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context)
@@ -78,7 +96,7 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
   }
 }
 
-void Solver::search(const SolverSettings& settings, RunContext& context)
+bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& context)
 {
   CostSettings cost = settings.cost;
   if (views_.reference.channels() == 1)
@@ -87,16 +105,19 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
     cost.unseen_penalty = cvRound(GREY_SHARE * static_cast<float>(cost.unseen_penalty));
   }
   cost.min_seeing_views = std::min(cost.min_seeing_views, static_cast<int>(views_.views.size()));
+  if (!computeFirstCosts(settings, cost, where, context))
   {
-    const StageTimer timer(context, "cost");
-    bands_.setAll(views_.width(), views_.height(), labels_.count);
-    cost_builder_.buildFromArms(views_, labels_, bands_, cost, context.pool, volume_);
+    return false;
   }
   {
     const StageTimer timer(context, "aggregate");
     aggregator_.setGuide(guide(), settings.paths, context.pool);
   }
   aggregate(settings, context);
+  if (settings.watch_scene && !acceptFirstMap(settings, where, context))
+  {
+    return false;
+  }
   if (settings.fuse_background)
   {
     fuseBackground(settings, context);
@@ -120,6 +141,52 @@ void Solver::search(const SolverSettings& settings, RunContext& context)
     }
     aggregate(settings, context);
   }
+  return true;
+}
+
+bool Solver::computeFirstCosts(const SolverSettings& settings, const CostSettings& cost, SearchIn where,
+                               RunContext& context)
+{
+  const StageTimer timer(context, "cost");
+  if (where == SearchIn::AllLabels)
+  {
+    bands_.setAll(views_.width(), views_.height(), labels_.count);
+  }
+  else
+  {
+    bands_.setAround(disparity_, labels_, FOLLOWED_REACH_PX, FOLLOWED_MARGIN_LABELS, context.pool);
+  }
+  if (!settings.watch_scene)
+  {
+    cost_builder_.buildFromArms(views_, labels_, bands_, cost, context.pool, volume_);
+    return true;
+  }
+  cost_builder_.buildAndWatch(views_, labels_, bands_, cost, settings.watch, context.pool, volume_, watch_);
+  if (where == SearchIn::AllLabels)
+  {
+    watch_.acceptFull();
+    return true;
+  }
+  if (!watch_.acceptNear(settings.watch, bands_, changed_tiles_))
+  {
+    return false;
+  }
+  if (std::any_of(changed_tiles_.begin(), changed_tiles_.end(), [](std::uint8_t tile) { return tile != 0; }))
+  {
+    cost_builder_.rebuildTiles(views_, labels_, bands_, changed_tiles_, cost, context.pool, volume_);
+  }
+  return true;
+}
+
+bool Solver::acceptFirstMap(const SolverSettings& settings, SearchIn where, RunContext& context)
+{
+  const StageTimer timer(context, "cost");
+  if (where == SearchIn::AllLabels)
+  {
+    watch_.acceptFullMap(disparity_, labels_);
+    return true;
+  }
+  return watch_.acceptNearMap(settings.watch, disparity_, labels_);
 }
 
 void Solver::fuseBackground(const SolverSettings& settings, RunContext& context)

@@ -10,6 +10,7 @@
 #include "light_field_depth/core/multiview/label_bands.h"
 #include "light_field_depth/core/multiview/label_space.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
+#include "light_field_depth/core/multiview/scene_watch.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview/visibility.h"
 #include "light_field_depth/core/thread_pool.h"
@@ -69,6 +70,17 @@ public:
   void buildFromArms(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
                      const CostSettings& settings, ThreadPool& pool, CostVolume& volume);
 
+  /// The same, and tells the watch of all labels in some of the rows.
+  void buildAndWatch(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
+                     const CostSettings& settings, const WatchSettings& watch_settings, ThreadPool& pool,
+                     CostVolume& volume, SceneWatch& watch);
+
+  /// Some tiles of a volume from buildFromArms() once more, with other bands there.
+  /// @param tiles for each tile whether it is rebuilt; the bands of the others are as before
+  void rebuildTiles(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
+                    const std::vector<std::uint8_t>& tiles, const CostSettings& settings, ThreadPool& pool,
+                    CostVolume& volume);
+
   /// The mean over the views that see the point, given the surfaces that each view sees.
   void buildFromVisible(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
                         const VisibleSurfaces& surfaces, const CostSettings& settings, ThreadPool& pool,
@@ -76,9 +88,9 @@ public:
 
 private:
   struct Scratch;
+  struct Task;
   struct RowJob;
-  void build(const ViewSet& views, const LabelSpace& labels, const VisibleSurfaces* surfaces,
-             const CostSettings& settings, ThreadPool& pool, CostVolume& volume);
+  void build(const Task& task, ThreadPool& pool, CostVolume& volume);
   std::unique_ptr<Scratch> takeScratch();
   void giveBack(std::unique_ptr<Scratch> scratch);
 

@@ -1,7 +1,9 @@
 #ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_SOLVER_H
 #define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_SOLVER_H
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -14,6 +16,7 @@
 #include "light_field_depth/core/multiview/label_space.h"
 #include "light_field_depth/core/multiview/path_aggregation.h"
 #include "light_field_depth/core/multiview/refinement.h"
+#include "light_field_depth/core/multiview/scene_watch.h"
 #include "light_field_depth/core/multiview/thin_structures.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview/visibility.h"
@@ -41,6 +44,8 @@ struct SolverSettings
   int refinements = 2;
   LinearizationSettings linearization;
   SmoothingSettings smoothing;
+  bool watch_scene = false;  ///< so that the next frame may follow
+  WatchSettings watch;
 };
 
 /// Runs the stages of the multi-view method in order. Keeps its buffers; one call at a time.
@@ -50,13 +55,29 @@ public:
   /// @param light_field 8-bit views whose outermost one stands about four steps from the reference
   void run(const LightField& light_field, const SolverSettings& settings, RunContext& context);
 
+  /// The next frame of the same views: searches the labels near the last map, and all where the scene has
+  /// changed. Everything in the result comes from this frame's images.
+  /// @pre the last call succeeded, with views at the same places and the same settings, watch_scene among
+  /// them
+  /// @return false if this is another scene; the results are then those of no frame, and run() is due
+  bool follow(const LightField& light_field, const SolverSettings& settings, RunContext& context);
+
   /// CV_32FC1 results of the last run; overwritten by the next.
   const cv::Mat& disparity() const { return disparity_; }
   const cv::Mat& confidence() const { return confidence_; }
 
 private:
   void prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context);
-  void search(const SolverSettings& settings, RunContext& context);
+  enum class SearchIn
+  {
+    AllLabels,
+    BandsAroundLast
+  };
+  bool solve(const SolverSettings& settings, SearchIn where, RunContext& context);
+  bool search(const SolverSettings& settings, SearchIn where, RunContext& context);
+  bool computeFirstCosts(const SolverSettings& settings, const CostSettings& cost, SearchIn where,
+                         RunContext& context);
+  bool acceptFirstMap(const SolverSettings& settings, SearchIn where, RunContext& context);
   void aggregate(const SolverSettings& settings, RunContext& context);
   void fuseBackground(const SolverSettings& settings, RunContext& context);
   void refine(const SolverSettings& settings, RunContext& context);
@@ -72,6 +93,8 @@ private:
   LabelBands bands_;
   CostVolumeBuilder cost_builder_;
   CostVolume volume_;
+  SceneWatch watch_;
+  std::vector<std::uint8_t> changed_tiles_;
   PathAggregator aggregator_;
   BackgroundFusion background_;
   VisibleSurfaces surfaces_;

@@ -1,0 +1,46 @@
+#ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_SEQUENCE_H
+#define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_SEQUENCE_H
+
+#include <string>
+#include <vector>
+
+#include "light_field_depth/core/exposure.h"
+#include "light_field_depth/core/light_field.h"
+
+namespace light_field_depth::multiview
+{
+/// What was measured on a frame that was searched in full, and holds for the frames that follow it.
+struct SceneMeasures
+{
+  std::vector<ViewExposure> exposures;  ///< one for each view
+  DisparityRange range;                 ///< in pixels per grid step
+  float noise_sigma = 0.0F;             ///< in 8-bit units
+};
+
+/// Knows whether a frame may follow the last one: the same kind of views at the same places, the same
+/// settings, and a last frame that came to its end. What the images show is not looked at.
+class Sequence
+{
+public:
+  /// The measures of the sequence if this frame may follow; nullptr otherwise. In both cases the sequence is
+  /// broken until keep() or begin() is called, so that a frame that throws breaks it.
+  /// @param settings text that differs whenever any setting does
+  const SceneMeasures* follow(const LightField& light_field, const std::string& settings);
+
+  /// The frame given to follow() came to its end.
+  void keep() { unbroken_ = true; }
+
+  /// The frame given to follow() was searched in full, with these measures.
+  void begin(SceneMeasures measures);
+
+  void forget() { unbroken_ = false; }
+
+private:
+  bool unbroken_ = false;
+  std::string signature_;
+  SceneMeasures measures_;
+};
+
+}  // namespace light_field_depth::multiview
+
+#endif  // LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_SEQUENCE_H
