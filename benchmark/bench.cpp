@@ -8,6 +8,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "ablation.h"
+#include "captures.h"
 #include "conditions.h"
 #include "kernel_benchmark.h"
 #include "light_fields.h"
@@ -28,12 +29,13 @@ struct Measurement
 };
 
 /// The first one is taken when none is named.
-constexpr std::array<Measurement, 7> MEASUREMENTS = {{
+constexpr std::array<Measurement, 8> MEASUREMENTS = {{
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
     {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
     {"--conditions", "the default method with noise, with fewer views, in grey, with uneven exposure",
      measureConditions},
+    {"--captures", "light fields of real cameras, without truth", measureCaptures},
     {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
     {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
     {"--memory", "the most memory that the process holds", measureMemory},
@@ -48,6 +50,10 @@ void declare(CLI::App& app, Settings& settings)
   }
   app.add_flag("--all", "all measurements, one after the other");
   app.add_option("--input", settings.inputs, "folders with a light field and its true disparity")->required();
+  app.add_option(
+      "--capture", settings.captures,
+      "folders with light fields for --captures, each as FOLDER or FOLDER,FLIP (none, rows, columns, "
+      "both)");
   app.add_option("--runs", settings.runs, "timed runs of each row")
       ->capture_default_str()
       ->check(CLI::Range(1, 999));

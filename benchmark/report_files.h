@@ -12,8 +12,10 @@ namespace light_field_depth::benchmark
 struct Settings
 {
   std::vector<std::string> inputs;  ///< folders with a light field and its true disparity
-  std::string results;              ///< folder for the files; empty: no files
-  int runs = 9;                     ///< timed runs of each row
+  /// Folders with light fields without truth, each as FOLDER or FOLDER,FLIP.
+  std::vector<std::string> captures;
+  std::string results;  ///< folder for the files; empty: no files
+  int runs = 9;         ///< timed runs of each row
   int threads = 2;
 };
 
