@@ -1,6 +1,7 @@
 #include "light_fields.h"
 
 #include <algorithm>
+#include <iostream>
 #include <memory>
 #include <utility>
 
@@ -54,12 +55,6 @@ double speedup(const Result& yardstick, const Result& result)
   return median(std::move(ratios));
 }
 
-std::string auseText(const Result& result)
-{
-  const auto& found = result.sparsification;
-  return found ? fixed(found->mse_100.ause, 3) + ", " + fixed(found->badpix_007.ause, 3) : "";
-}
-
 void report(const std::vector<Result>& results, Table& table, nlohmann::ordered_json& rows)
 {
   const auto yardstick = std::find_if(results.begin(), results.end(),
@@ -71,7 +66,7 @@ void report(const std::vector<Result>& results, Table& table, nlohmann::ordered_
     const double mse_ratio = accuracy.mse_100 / yardstick->evaluation.mse_100;
     table.rows.push_back({result.scene, result.name, toText(result.timing), fixed(faster, 1),
                           fixed(accuracy.mse_100, 2), fixed(mse_ratio, 2), fixed(accuracy.badpix_007, 2),
-                          fixed(accuracy.badpix_003, 1), fixed(accuracy.coverage, 2), auseText(result)});
+                          fixed(accuracy.badpix_003, 1), fixed(accuracy.coverage, 2)});
     nlohmann::ordered_json row;
     row["scene"] = result.scene;
     row["method"] = result.name;
@@ -80,6 +75,28 @@ void report(const std::vector<Result>& results, Table& table, nlohmann::ordered_
     row["accuracy"] = accuracyJson(result);
     row["mse_to_that_of_dis"] = mse_ratio;
     rows.push_back(row);
+  }
+}
+
+/// What is left when a tenth of the pixels is dropped, and of that the ideal.
+std::string tenthText(const SparsificationCurve& curve, int decimals)
+{
+  const double ideal = curve.ideal[SPARSIFICATION_STEPS / 10];
+  return fixed(curve.error.front(), decimals) + " -> " + fixed(withoutLeastConfidentTenth(curve), decimals) +
+         " (" + fixed(ideal, decimals) + ")";
+}
+
+void reportConfidence(const std::vector<Result>& results, Table& table)
+{
+  for (const Result& result : results)
+  {
+    if (result.sparsification)
+    {
+      const SparsificationCurve& mse = result.sparsification->mse_100;
+      const SparsificationCurve& badpix = result.sparsification->badpix_007;
+      table.rows.push_back({result.scene, result.name, tenthText(mse, 3), fixed(mse.ause, 3),
+                            tenthText(badpix, 2), fixed(badpix.ause, 3)});
+    }
   }
 }
 
@@ -96,8 +113,14 @@ void compareMethods(const Settings& settings)
                   "MSE / that of DIS",
                   "BadPix 0.07 %",
                   "BadPix 0.03 %",
-                  "coverage",
-                  "AUSE of MSE, BadPix 0.07"};
+                  "coverage"};
+  Table confidence;
+  confidence.header = {"scene",
+                       "method",
+                       "MSE x 100 without a tenth (ideal)",
+                       "AUSE of MSE",
+                       "BadPix 0.07 % without a tenth (ideal)",
+                       "AUSE of BadPix"};
   nlohmann::ordered_json json = describeMachine(settings);
   std::vector<Contestant> own;
   for (const Variant& variant : ownMethods())
@@ -112,9 +135,13 @@ void compareMethods(const Settings& settings)
     {
       all.push_back(std::move(contestant));
     }
-    report(measure(scene, all, settings.runs), table, json["rows"]);
+    const std::vector<Result> results = measure(scene, all, settings.runs);
+    report(results, table, json["rows"]);
+    reportConfidence(results, confidence);
   }
   publish(settings, "light_fields", table, json);
+  std::cout << '\n';
+  publishTable(settings, "confidence", confidence);
 }
 
 }  // namespace light_field_depth::benchmark

@@ -78,17 +78,24 @@ nlohmann::ordered_json describeMachine(const Settings& settings)
   return machine;
 }
 
-void publish(const Settings& settings, const std::string& name, const Table& table,
-             const nlohmann::ordered_json& report)
+void publishTable(const Settings& settings, const std::string& name, const Table& table)
 {
   const std::string text = toMarkdown(table);
   std::cout << text << std::flush;
   if (!settings.results.empty())
   {
     makeFolder(settings.results);
-    const std::filesystem::path folder = settings.results;
-    writeFile(folder / (name + ".md"), text);
-    writeFile(folder / (name + ".json"), report.dump(2) + "\n");
+    writeFile(std::filesystem::path(settings.results) / (name + ".md"), text);
+  }
+}
+
+void publish(const Settings& settings, const std::string& name, const Table& table,
+             const nlohmann::ordered_json& report)
+{
+  publishTable(settings, name, table);
+  if (!settings.results.empty())
+  {
+    writeFile(std::filesystem::path(settings.results) / (name + ".json"), report.dump(2) + "\n");
   }
 }
 

@@ -35,6 +35,10 @@ std::string fixed(double value, int decimals);
 /// The machine and the settings, which every report begins with.
 nlohmann::ordered_json describeMachine(const Settings& settings);
 
+/// Prints a table, and writes it as NAME.md into the folder of results, if there is one.
+/// @throw InputError that names the file which cannot be written
+void publishTable(const Settings& settings, const std::string& name, const Table& table);
+
 /// Prints a table, and writes it as NAME.md and the report as NAME.json into the folder of results, if there
 /// is one.
 /// @throw InputError that names the file which cannot be written
