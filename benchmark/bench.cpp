@@ -16,6 +16,7 @@
 #include "profile.h"
 #include "report_files.h"
 #include "scaling.h"
+#include "video.h"
 
 namespace light_field_depth::benchmark
 {
@@ -29,7 +30,7 @@ struct Measurement
 };
 
 /// The first one is taken when none is named.
-constexpr std::array<Measurement, 8> MEASUREMENTS = {{
+constexpr std::array<Measurement, 9> MEASUREMENTS = {{
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
     {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
@@ -40,6 +41,7 @@ constexpr std::array<Measurement, 8> MEASUREMENTS = {{
     {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
     {"--memory", "the most memory that the process holds", measureMemory},
     {"--profile", "where the time of a frame goes, and what the machine could do in it", profileFrame},
+    {"--video", "a moving light field, frame by frame and with the last frame's help", measureVideo},
 }};
 
 void declare(CLI::App& app, Settings& settings)

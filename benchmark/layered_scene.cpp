@@ -32,63 +32,94 @@ cv::Mat randomTexture(const cv::Size& size, cv::RNG& random)
   return bytes;
 }
 
-struct Layer
+/// Displaces an image: the result at p is the source at p + from.
+cv::Mat displaced(const cv::Mat& source, const cv::Point2d& from, int interpolation, int border)
 {
-  double disparity = 0.0;
-  cv::Mat texture;  ///< as the reference view sees it
-  cv::Mat mask;     ///< empty: everywhere
-};
-
-Layer disc(const cv::Size& size, double disparity, cv::RNG& random)
-{
-  Layer layer;
-  layer.disparity = disparity;
-  layer.texture = randomTexture(size, random);
-  layer.mask = cv::Mat::zeros(size, CV_8UC1);
-  const cv::Point centre(random.uniform(0, size.width), random.uniform(0, size.height));
-  cv::circle(layer.mask, centre, std::min(size.width, size.height) / 7, cv::Scalar::all(255), cv::FILLED);
-  return layer;
+  const cv::Matx23d matrix(1, 0, from.x, 0, 1, from.y);
+  cv::Mat target;
+  cv::warpAffine(source, target, matrix, source.size(), interpolation | cv::WARP_INVERSE_MAP, border);
+  return target;
 }
 
-/// From the farthest to the nearest.
-std::vector<Layer> layersOf(const cv::Size& size)
+}  // namespace
+
+LayeredScene::LayeredScene(const cv::Size& size, std::uint64_t seed)
 {
-  constexpr std::uint64_t seed = 20170830;
+  constexpr double fastest_px = 2.0;
   cv::RNG random(seed);
-  std::vector<Layer> layers = {{LAYERED_SCENE_RANGE.min, randomTexture(size, random), {}}};
   const double span = LAYERED_SCENE_RANGE.max - LAYERED_SCENE_RANGE.min;
-  for (int i = 1; i <= DISCS; ++i)
+  for (int i = 0; i <= DISCS; ++i)
   {
-    layers.push_back(disc(size, LAYERED_SCENE_RANGE.min + span * i / DISCS, random));
+    Layer layer;
+    layer.disparity = LAYERED_SCENE_RANGE.min + span * i / DISCS;
+    layer.motion_px = {random.uniform(-fastest_px, fastest_px), random.uniform(-fastest_px, fastest_px)};
+    layer.texture = randomTexture(size, random);
+    if (i > 0)  // the first one is the wall
+    {
+      layer.mask = cv::Mat::zeros(size, CV_8UC1);
+      const cv::Point centre(random.uniform(0, size.width), random.uniform(0, size.height));
+      cv::circle(layer.mask, centre, std::min(size.width, size.height) / 7, cv::Scalar::all(255), cv::FILLED);
+    }
+    layers_.push_back(layer);
   }
-  return layers;
 }
 
-/// What a view at these steps from the reference sees: pixel p of a layer moves to p - disparity * steps.
-cv::Mat render(const std::vector<Layer>& layers, const cv::Point2d& steps)
+double LayeredScene::Layer::disparityAt(double time) const
+{
+  constexpr double swing_px = 0.2;
+  constexpr double frames_per_radian = 20.0;
+  return disparity + swing_px * std::sin(time / frames_per_radian);
+}
+
+/// Pixel p of a layer moves to p + motion * time - disparity * steps.
+cv::Mat LayeredScene::render(const cv::Point2d& steps, double time) const
 {
   cv::Mat image;
-  for (const Layer& layer : layers)
+  for (const Layer& layer : layers_)
   {
-    const cv::Matx23d from(1, 0, layer.disparity * steps.x, 0, 1, layer.disparity * steps.y);
-    const auto moved = [&](const cv::Mat& source, int interpolation, int border)
-    {
-      cv::Mat target;
-      cv::warpAffine(source, target, from, source.size(), interpolation | cv::WARP_INVERSE_MAP, border);
-      return target;
-    };
-    const cv::Mat texture = moved(layer.texture, cv::INTER_CUBIC, cv::BORDER_REFLECT);
+    const cv::Point2d from = layer.disparityAt(time) * steps - layer.motion_px * time;
+    const cv::Mat texture = displaced(layer.texture, from, cv::INTER_CUBIC, cv::BORDER_REFLECT);
     if (layer.mask.empty())
     {
       image = texture;
       continue;
     }
-    texture.copyTo(image, moved(layer.mask, cv::INTER_NEAREST, cv::BORDER_CONSTANT));
+    texture.copyTo(image, displaced(layer.mask, from, cv::INTER_NEAREST, cv::BORDER_CONSTANT));
   }
   return image;
 }
 
-}  // namespace
+cv::Mat LayeredScene::truth(double time) const
+{
+  cv::Mat disparity(layers_.front().texture.size(), CV_32FC1);
+  for (const Layer& layer : layers_)
+  {
+    const cv::Scalar value(layer.disparityAt(time));
+    if (layer.mask.empty())
+    {
+      disparity.setTo(value);
+      continue;
+    }
+    disparity.setTo(value,
+                    displaced(layer.mask, -layer.motion_px * time, cv::INTER_NEAREST, cv::BORDER_CONSTANT));
+  }
+  return disparity;
+}
+
+LightField LayeredScene::views(const std::vector<GridPosition>& positions, double time) const
+{
+  const GridPosition centre = positions[positions.size() / 2];  // of a whole grid or cross of odd size
+  std::vector<View> views;
+  for (const GridPosition& position : positions)
+  {
+    View view = gridView(position.row, position.column, {});
+    view.steps = cv::Point2d(position.column - centre.column, position.row - centre.row) *
+                 (LAYERED_SCENE_BASELINE / centre.column);
+    view.image = render(view.steps, time);
+    views.push_back(std::move(view));
+  }
+  return makeLightField(std::move(views), centre);
+}
 
 std::vector<GridPosition> gridOf(int size)
 {
@@ -114,22 +145,6 @@ std::vector<GridPosition> crossOf(int size)
     }
   }
   return positions;
-}
-
-LightField layeredScene(const cv::Size& size, const std::vector<GridPosition>& positions)
-{
-  const std::vector<Layer> layers = layersOf(size);
-  const GridPosition centre = positions[positions.size() / 2];  // of a whole grid or cross of odd size
-  std::vector<View> views;
-  for (const GridPosition& position : positions)
-  {
-    View view = gridView(position.row, position.column, {});
-    view.steps = cv::Point2d(position.column - centre.column, position.row - centre.row) *
-                 (LAYERED_SCENE_BASELINE / centre.column);
-    view.image = render(layers, view.steps);
-    views.push_back(std::move(view));
-  }
-  return makeLightField(std::move(views), centre);
 }
 
 }  // namespace light_field_depth::benchmark

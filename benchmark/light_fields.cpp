@@ -15,8 +15,11 @@ namespace light_field_depth::benchmark
 const std::vector<Variant>& ownMethods()
 {
   static const std::vector<Variant> methods = {
-      {"quality", {"multiview_preset=quality"}},   {"balanced", {"multiview_preset=balanced"}},
-      {"realtime", {"multiview_preset=realtime"}}, {"fast", {"multiview_preset=fast"}},
+      {"quality", {"multiview_preset=quality"}},
+      {"balanced", {"multiview_preset=balanced"}},
+      {"realtime", {"multiview_preset=realtime"}},
+      {"realtime, temporal", {"multiview_preset=realtime", "multiview_temporal=true"}},
+      {"fast", {"multiview_preset=fast"}},
       {"paper2017", {"method=paper2017"}},
   };
   return methods;

@@ -79,7 +79,7 @@ void measureMemory(const Settings& settings)
   nlohmann::ordered_json json = describeMachine(settings);
   for (const Load& load : loads())
   {
-    const LightField light_field = layeredScene({load.side_px, load.side_px}, crossOf(9));
+    const LightField light_field = LayeredScene({load.side_px, load.side_px}).views(crossOf(9));
     const double peak_mb = peakOf(load, light_field, settings.threads);
     table.rows.push_back({load.variant.name, std::to_string(load.side_px), std::to_string(load.labels),
                           fixed(sizeMb(light_field), 0), fixed(peak_mb, 0)});

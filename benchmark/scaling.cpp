@@ -43,7 +43,7 @@ struct Series
 
 std::shared_ptr<const LightField> sceneOf(int side, const std::vector<GridPosition>& positions)
 {
-  return std::make_shared<const LightField>(layeredScene({side, side}, positions));
+  return std::make_shared<const LightField>(LayeredScene({side, side}).views(positions));
 }
 
 /// With the range given, so that it is not the search for it that grows.

@@ -82,7 +82,7 @@ TEST(Benchmark, EveryVariantCanBeRun)
             std::string::npos);
 }
 
-/// Whether most pixels of the reference are seen by a view where a disparity says.
+/// The part of the reference's pixels that a view sees where a disparity says.
 double shareSeenAt(const View& view, const cv::Mat& reference, double disparity)
 {
   const int dx = static_cast<int>(std::lround(disparity * view.steps.x));
@@ -106,7 +106,7 @@ double shareSeenAt(const View& view, const cv::Mat& reference, double disparity)
 
 TEST(Benchmark, TheWallOfTheLayeredSceneHasTheLeastDisparityInEveryView)
 {
-  const LightField scene = layeredScene({160, 120}, crossOf(3));
+  const LightField scene = LayeredScene({160, 120}).views(crossOf(3));
   ASSERT_EQ(scene.views.size(), 5U);
   for (const View& view : scene.views)
   {
@@ -114,14 +114,14 @@ TEST(Benchmark, TheWallOfTheLayeredSceneHasTheLeastDisparityInEveryView)
     EXPECT_GT(shareSeenAt(view, scene.reference().image, LAYERED_SCENE_RANGE.min), 0.5) << view.grid.row;
   }
   EXPECT_LT(shareSeenAt(scene.views.front(), scene.reference().image, 0.0), 0.1);
-  EXPECT_EQ(layeredScene({64, 64}, gridOf(5)).views.size(), 25U);
+  EXPECT_EQ(LayeredScene({64, 64}).views(gridOf(5)).views.size(), 25U);
 }
 
 TEST(Benchmark, EveryStageWhoseWorkIsKnownOccursInAFrame)
 {
   Pipeline pipeline(2);
   std::set<std::string> stages;
-  for (const StageTime& time : pipeline.run(layeredScene({96, 96}, crossOf(9)), {}, {}).stage_times)
+  for (const StageTime& time : pipeline.run(LayeredScene({96, 96}).views(crossOf(9)), {}, {}).stage_times)
   {
     stages.insert(time.stage);
   }
