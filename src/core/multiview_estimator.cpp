@@ -195,6 +195,7 @@ struct MultiviewEstimator::Buffers
   multiview::Sequence sequence;
   multiview::Solver solver;
   multiview::HalfResolution half;
+  std::vector<ViewDisparity> view_maps;
 };
 
 MultiviewEstimator::MultiviewEstimator(MultiviewOptions options)
@@ -224,8 +225,9 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   if (request.view_disparities)
   {
     const StageTimer timer(context, "view maps");
-    estimate.view_disparities =
-        multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool);
+    multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool,
+                           buffers_->view_maps);
+    estimate.view_disparities = buffers_->view_maps;
   }
   return estimate;
 }

@@ -38,6 +38,20 @@ void throwIfAny(const std::vector<std::string>& problems)
   throw InputError(text);
 }
 
+/// The caller's room, or that of a vector.
+PointRoom roomOr(const PointRoom& room, std::vector<ColoredPoint>& points)
+{
+  if (room)
+  {
+    return room;
+  }
+  return [&points](std::size_t count)
+  {
+    points.resize(count);
+    return points.data();
+  };
+}
+
 }  // namespace
 
 std::string toString(Method method)
@@ -123,6 +137,32 @@ Estimator& Pipeline::estimatorFor(const PipelineOptions& options)
   return *paper2017_;
 }
 
+void Pipeline::unproject(const LightField& light_field, const PipelineOptions& options,
+                         const ProductRequest& request, RunContext& context, PipelineResult& result)
+{
+  const DisparityEstimate& estimate = result.estimate;
+  if (request.depth)
+  {
+    const StageTimer timer(context, "depth");
+    result.depth = depthMap(estimate.disparity, *light_field.calibration);
+    result.depth.setTo(std::nan(""), estimate.confidence < options.min_confidence);
+  }
+  if (request.organized_cloud)
+  {
+    const StageTimer timer(context, "cloud");
+    const std::size_t count = estimate.disparity.total();
+    unprojectReference(light_field, estimate.disparity, estimate.confidence, options.min_confidence, pool_,
+                       roomOr(request.organized_cloud_room, result.organized_cloud)(count));
+  }
+  if (request.dense_cloud)
+  {
+    const StageTimer timer(context, "dense cloud");
+    denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_,
+               roomOr(request.dense_cloud_room, result.dense_cloud));
+    result.estimate.view_disparities.clear();  // so that the next frame may have their memory
+  }
+}
+
 PipelineResult Pipeline::run(const LightField& light_field, const PipelineOptions& options,
                              const ProductRequest& request)
 {
@@ -142,23 +182,7 @@ PipelineResult Pipeline::run(const LightField& light_field, const PipelineOption
   result.estimate = estimatorFor(options).estimate(light_field, estimate_request, context);
   if (calibrated)
   {
-    const StageTimer timer(context, "geometry");
-    const DisparityEstimate& estimate = result.estimate;
-    if (request.depth)
-    {
-      result.depth = depthMap(estimate.disparity, *light_field.calibration);
-      result.depth.setTo(std::nan(""), estimate.confidence < options.min_confidence);
-    }
-    if (request.organized_cloud)
-    {
-      result.organized_cloud.resize(estimate.disparity.total());
-      unprojectReference(light_field, estimate.disparity, estimate.confidence, options.min_confidence, pool_,
-                         result.organized_cloud.data());
-    }
-    if (request.dense_cloud)
-    {
-      result.dense_cloud = denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_);
-    }
+    unproject(light_field, options, request, context, result);
   }
   result.stage_times = std::move(context.stage_times);
   result.total_ms =

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
-#include <unordered_map>
 
-#include "light_field_depth/core/error.h"
-#include "light_field_depth/core/geometry.h"
+#include "voxel_merger.h"
 
 namespace light_field_depth
 {
 namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
+constexpr int ROWS_PER_MERGED_BAND = 8;
 
 /// The camera of one view as the unprojection needs it, in the frame of the reference view.
 struct ViewCamera
@@ -61,120 +61,166 @@ bool isTrusted(const cv::Mat& confidence, int y, int x, float min_confidence)
   return confidence.empty() || confidence.at<float>(y, x) >= min_confidence;
 }
 
-/// Sets x, y, z; false and NaN where the disparity gives no depth.
-bool unproject(const ViewCamera& camera, const Calibration& calibration, int x, int y, float disparity,
-               ColoredPoint& point)
+/// Rays of one row of one view's pixels: x, y of the points at depth 1, and what is added to them.
+class RowUnprojection
 {
-  const float z = depthFromDisparity(disparity, calibration);
-  point.z = z;
-  point.x =
-      static_cast<float>(camera.centre_m.x + (x - camera.principal_point_px.x) * z / camera.focal_length_px);
-  point.y =
-      static_cast<float>(camera.centre_m.y + (y - camera.principal_point_px.y) * z / camera.focal_length_px);
-  return std::isfinite(z);
+public:
+  RowUnprojection(const View& view, const Calibration& calibration)
+      : camera_(cameraOf(view, calibration)), colors_(view.image),
+        focal_times_baseline_(calibration.focal_length_px * calibration.baseline_m),
+        disparity_offset_px_(calibration.disparity_offset_px), ray_step_(1.0 / calibration.focal_length_px)
+  {
+  }
+
+  /// Whether a disparity gives a depth. As in depthFromDisparity().
+  bool isFinite(float disparity) const { return std::isfinite(depthOf(disparity)); }
+
+  /// x, y, z and the colour of one pixel; NaN where the disparity gives no depth.
+  ColoredPoint point(int y, int x, float disparity) const
+  {
+    const float z = depthOf(disparity);
+    ColoredPoint point;
+    point.x = static_cast<float>(camera_.centre_m.x + (x - camera_.principal_point_px.x) * ray_step_ * z);
+    point.y = static_cast<float>(camera_.centre_m.y + (y - camera_.principal_point_px.y) * ray_step_ * z);
+    point.z = z;
+    colors_.paint(y, x, point);
+    return point;
+  }
+
+private:
+  float depthOf(float disparity) const
+  {
+    const double absolute = disparity + disparity_offset_px_;
+    const bool valid = absolute > 0.0 && absolute <= std::numeric_limits<double>::max();
+    const auto depth = static_cast<float>(focal_times_baseline_ / absolute);
+    return valid ? depth : std::numeric_limits<float>::quiet_NaN();
+  }
+
+  ViewCamera camera_;
+  ColorReader colors_;
+  double focal_times_baseline_;
+  double disparity_offset_px_;
+  double ray_step_;
+};
+
+/// Rows of one view, the unit of the work on all views.
+struct Chunk
+{
+  std::size_t map;
+  int first_row;
+  int last_row;
+};
+
+std::vector<Chunk> chunksOf(const std::vector<ViewDisparity>& maps)
+{
+  std::vector<Chunk> chunks;
+  for (std::size_t map = 0; map < maps.size(); ++map)
+  {
+    for (int row = 0; row < maps[map].disparity.rows; row += ROWS_PER_CHUNK)
+    {
+      chunks.push_back({map, row, std::min(row + ROWS_PER_CHUNK, maps[map].disparity.rows)});
+    }
+  }
+  return chunks;
 }
 
-/// The points of rows [first, last) of one view that have a depth and are trusted, in row-major order.
-void appendRows(const View& view, const Calibration& calibration, const ViewDisparity& map,
-                float min_confidence, int first, int last, std::vector<ColoredPoint>& points)
+/// Every pixel of every view that has a depth and is trusted.
+class TrustedPixels
 {
-  const ViewCamera camera = cameraOf(view, calibration);
-  const ColorReader colors(view.image);
-  for (int y = first; y < last; ++y)
+public:
+  TrustedPixels(const LightField& light_field, const std::vector<ViewDisparity>& maps, float min_confidence)
+      : maps_(maps), min_confidence_(min_confidence)
   {
-    for (int x = 0; x < map.disparity.cols; ++x)
+    for (const ViewDisparity& map : maps)
     {
-      ColoredPoint point{};
-      if (isTrusted(map.confidence, y, x, min_confidence) &&
-          unproject(camera, calibration, x, y, map.disparity.at<float>(y, x), point))
+      unprojections_.emplace_back(light_field.views[map.view_index], *light_field.calibration);
+    }
+  }
+
+  std::size_t count(const Chunk& chunk) const
+  {
+    const RowUnprojection& unprojection = unprojections_[chunk.map];
+    std::size_t count = 0;
+    forEach(chunk, [&](int, int, float disparity, bool trusted)
+            { count += static_cast<std::size_t>(trusted && unprojection.isFinite(disparity)); });
+    return count;
+  }
+
+  /// The points in row-major order. @return the end of what was written
+  ColoredPoint* write(const Chunk& chunk, ColoredPoint* points) const
+  {
+    const RowUnprojection& unprojection = unprojections_[chunk.map];
+    forEach(chunk,
+            [&](int y, int x, float disparity, bool trusted)
+            {
+              if (trusted && unprojection.isFinite(disparity))
+              {
+                *points++ = unprojection.point(y, x, disparity);
+              }
+            });
+    return points;
+  }
+
+private:
+  template <class Visit>
+  void forEach(const Chunk& chunk, const Visit& visit) const
+  {
+    const ViewDisparity& map = maps_[chunk.map];
+    for (int y = chunk.first_row; y < chunk.last_row; ++y)
+    {
+      const auto* const disparity = map.disparity.ptr<float>(y);
+      const float* const confidence = map.confidence.empty() ? nullptr : map.confidence.ptr<float>(y);
+      for (int x = 0; x < map.disparity.cols; ++x)
       {
-        colors.paint(y, x, point);
-        points.push_back(point);
+        visit(y, x, disparity[x], confidence == nullptr || confidence[x] >= min_confidence_);
       }
     }
   }
+
+  const std::vector<ViewDisparity>& maps_;
+  std::vector<RowUnprojection> unprojections_;
+  float min_confidence_;
+};
+
+void writeEveryPoint(const TrustedPixels& pixels, const std::vector<Chunk>& chunks, ThreadPool& pool,
+                     const PointRoom& room)
+{
+  std::vector<std::size_t> begins(chunks.size() + 1, 0);
+  const auto forEachChunk = [&](const std::function<void(std::size_t)>& body)
+  {
+    pool.parallelFor(0, static_cast<int>(chunks.size()), 1,
+                     [&](int first, int /*last*/) { body(static_cast<std::size_t>(first)); });
+  };
+  forEachChunk([&](std::size_t i) { begins[i + 1] = pixels.count(chunks[i]); });
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  ColoredPoint* const points = room(begins.back());
+  forEachChunk([&](std::size_t i) { pixels.write(chunks[i], points + begins[i]); });
 }
 
-struct VoxelKey
+/// Merges the same rows of all views first, since they see much the same places.
+void writeMergedPoints(const TrustedPixels& pixels, const std::vector<ViewDisparity>& maps,
+                       float voxel_size_m, ThreadPool& pool, const PointRoom& room)
 {
-  std::int64_t x;
-  std::int64_t y;
-  std::int64_t z;
-  bool operator==(const VoxelKey& other) const { return x == other.x && y == other.y && z == other.z; }
-};
-
-struct VoxelHash
-{
-  std::size_t operator()(const VoxelKey& key) const
-  {
-    const std::uint64_t mixed = static_cast<std::uint64_t>(key.x) * 0x9E3779B97F4A7C15ULL ^
-                                static_cast<std::uint64_t>(key.y) * 0xC2B2AE3D27D4EB4FULL ^
-                                static_cast<std::uint64_t>(key.z) * 0x165667B19E3779F9ULL;
-    return static_cast<std::size_t>(mixed ^ (mixed >> 29));
-  }
-};
-
-struct VoxelSum
-{
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;
-  std::uint32_t b = 0;
-  std::uint32_t g = 0;
-  std::uint32_t r = 0;
-  std::uint32_t count = 0;
-
-  void add(const ColoredPoint& point)
-  {
-    x += point.x;
-    y += point.y;
-    z += point.z;
-    b += point.b;
-    g += point.g;
-    r += point.r;
-    ++count;
-  }
-
-  ColoredPoint mean() const
-  {
-    const auto level = [this](std::uint32_t sum)
-    { return static_cast<std::uint8_t>((sum + count / 2) / count); };
-    return {static_cast<float>(x / count),
-            static_cast<float>(y / count),
-            static_cast<float>(z / count),
-            level(b),
-            level(g),
-            level(r),
-            0};
-  }
-};
-
-/// The mean of the points of each voxel, voxels in the order of their first points.
-std::vector<ColoredPoint> mergeVoxels(const std::vector<ColoredPoint>& points, float voxel_size_m)
-{
-  const double scale = 1.0 / voxel_size_m;
-  std::unordered_map<VoxelKey, std::size_t, VoxelHash> index_of;
-  index_of.reserve(points.size() / 4);
-  std::vector<VoxelSum> sums;
-  for (const ColoredPoint& point : points)
-  {
-    const VoxelKey key = {static_cast<std::int64_t>(std::floor(point.x * scale)),
-                          static_cast<std::int64_t>(std::floor(point.y * scale)),
-                          static_cast<std::int64_t>(std::floor(point.z * scale))};
-    const auto [entry, inserted] = index_of.try_emplace(key, sums.size());
-    if (inserted)
-    {
-      sums.emplace_back();
-    }
-    sums[entry->second].add(point);
-  }
-  std::vector<ColoredPoint> merged;
-  merged.reserve(sums.size());
-  for (const VoxelSum& sum : sums)
-  {
-    merged.push_back(sum.mean());
-  }
-  return merged;
+  const cv::Size size = maps.empty() ? cv::Size() : maps.front().disparity.size();
+  const int bands = (size.height + ROWS_PER_MERGED_BAND - 1) / ROWS_PER_MERGED_BAND;
+  VoxelMerger merger(static_cast<std::size_t>(bands), voxel_size_m);
+  pool.parallelFor(0, bands, 1,
+                   [&](int band, int /*end*/)
+                   {
+                     const int first_row = band * ROWS_PER_MERGED_BAND;
+                     const int last_row = std::min(first_row + ROWS_PER_MERGED_BAND, size.height);
+                     VoxelMerger::Table table(merger);
+                     std::vector<ColoredPoint> row(static_cast<std::size_t>(size.width));
+                     for (std::size_t map = 0; map < maps.size(); ++map)
+                     {
+                       for (int y = first_row; y < last_row; ++y)
+                       {
+                         table.add(row.data(), pixels.write({map, y, y + 1}, row.data()));
+                       }
+                     }
+                     table.store(static_cast<std::size_t>(band));
+                   });
+  merger.merge(pool, room);
 }
 
 }  // namespace
@@ -183,9 +229,7 @@ void unprojectReference(const LightField& light_field, const cv::Mat& disparity,
                         float min_confidence, ThreadPool& pool, ColoredPoint* points)
 {
   const LightField shown = toEightBit(light_field);
-  const Calibration& calibration = *shown.calibration;
-  const ViewCamera camera = cameraOf(shown.reference(), calibration);
-  const ColorReader colors(shown.reference().image);
+  const RowUnprojection unprojection(shown.reference(), *shown.calibration);
   constexpr float NaN = std::numeric_limits<float>::quiet_NaN();
   pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
                    [&](int first, int last)
@@ -196,9 +240,7 @@ void unprojectReference(const LightField& light_field, const cv::Mat& disparity,
                        for (int x = 0; x < disparity.cols; ++x)
                        {
                          const bool trusted = isTrusted(confidence, y, x, min_confidence);
-                         unproject(camera, calibration, x, y, trusted ? disparity.at<float>(y, x) : NaN,
-                                   row[x]);
-                         colors.paint(y, x, row[x]);
+                         row[x] = unprojection.point(y, x, trusted ? disparity.at<float>(y, x) : NaN);
                        }
                      }
                    });
@@ -220,34 +262,32 @@ std::vector<std::string> validate(const DenseCloudOptions& options)
   return problems;
 }
 
+void denseCloud(const LightField& light_field, const std::vector<ViewDisparity>& maps,
+                const DenseCloudOptions& options, ThreadPool& pool, const PointRoom& room)
+{
+  const LightField shown = toEightBit(light_field);
+  const TrustedPixels pixels(shown, maps, options.min_confidence);
+  if (options.voxel_size_m > 0.0F)
+  {
+    writeMergedPoints(pixels, maps, options.voxel_size_m, pool, room);
+  }
+  else
+  {
+    writeEveryPoint(pixels, chunksOf(maps), pool, room);
+  }
+}
+
 std::vector<ColoredPoint> denseCloud(const LightField& light_field, const std::vector<ViewDisparity>& maps,
                                      const DenseCloudOptions& options, ThreadPool& pool)
 {
-  const LightField shown = toEightBit(light_field);
-  std::vector<std::vector<ColoredPoint>> parts(maps.size());
-  pool.parallelFor(0, static_cast<int>(maps.size()), 1,
-                   [&](int first, int last)
-                   {
-                     for (int i = first; i < last; ++i)
-                     {
-                       const ViewDisparity& map = maps[static_cast<std::size_t>(i)];
-                       appendRows(shown.views[map.view_index], *shown.calibration, map,
-                                  options.min_confidence, 0, map.disparity.rows,
-                                  parts[static_cast<std::size_t>(i)]);
-                     }
-                   });
   std::vector<ColoredPoint> points;
-  std::size_t count = 0;
-  for (const auto& part : parts)
-  {
-    count += part.size();
-  }
-  points.reserve(count);
-  for (const auto& part : parts)
-  {
-    points.insert(points.end(), part.begin(), part.end());
-  }
-  return options.voxel_size_m > 0.0F ? mergeVoxels(points, options.voxel_size_m) : points;
+  denseCloud(light_field, maps, options, pool,
+             [&points](std::size_t count)
+             {
+               points.resize(count);
+               return points.data();
+             });
+  return points;
 }
 
 }  // namespace light_field_depth

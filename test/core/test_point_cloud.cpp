@@ -1,4 +1,7 @@
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -106,6 +109,67 @@ TEST(PointCloud, LeavesOutWhatHasNoDepthAndMergesVoxels)
   {
     EXPECT_NEAR(point.z, 2.0F, 1e-5);
   }
+}
+
+TEST(PointCloud, MergesVoxelsIntoTheMeansOfTheirPointsForAnyNumberOfThreads)
+{
+  const auto scene = planeScene(0.0);
+  auto maps = constantMaps(scene.light_field, 0.0F);
+  for (ViewDisparity& map : maps)
+  {
+    cv::randu(map.disparity, -1.0F, 3.0F);
+  }
+  ThreadPool one(1);
+  ThreadPool three(3);
+  DenseCloudOptions options;
+  const auto cloud = denseCloud(scene.light_field, maps, options, one);
+  options.voxel_size_m = 0.1F;
+  const auto merged = denseCloud(scene.light_field, maps, options, one);
+
+  using Key = std::array<int, 3>;
+  const auto keyOf = [&](const ColoredPoint& point)
+  {
+    const auto cell = [&](float position)
+    { return static_cast<int>(std::floor(position * (1.0 / options.voxel_size_m))); };
+    return Key{cell(point.x), cell(point.y), cell(point.z)};
+  };
+  std::map<Key, std::vector<ColoredPoint>> expected;
+  for (const ColoredPoint& point : cloud)
+  {
+    expected[keyOf(point)].push_back(point);
+  }
+  ASSERT_EQ(merged.size(), expected.size());
+  const auto mean = [](const std::vector<ColoredPoint>& points, const auto& value)
+  {
+    double sum = 0.0;
+    for (const ColoredPoint& point : points)
+    {
+      sum += value(point);
+    }
+    return sum / static_cast<double>(points.size());
+  };
+  std::size_t found = 0;
+  for (const ColoredPoint& point : merged)
+  {
+    const auto voxel = expected.find(keyOf(point));
+    if (voxel == expected.end())
+    {
+      continue;  // a mean on the face of its cube, rounded out of it
+    }
+    ++found;
+    EXPECT_NEAR(point.x, mean(voxel->second, [](const auto& p) { return p.x; }), 1e-5);
+    EXPECT_NEAR(point.z, mean(voxel->second, [](const auto& p) { return p.z; }), 1e-5);
+    EXPECT_NEAR(point.g, mean(voxel->second, [](const auto& p) { return p.g; }), 0.51);
+  }
+  EXPECT_GT(found, expected.size() * 99 / 100);
+
+  const auto on_three = denseCloud(scene.light_field, maps, options, three);
+  ASSERT_EQ(on_three.size(), merged.size());
+  EXPECT_EQ(std::memcmp(on_three.data(), merged.data(), merged.size() * sizeof(ColoredPoint)), 0);
+  options.voxel_size_m = 0.0F;
+  const auto all_on_three = denseCloud(scene.light_field, maps, options, three);
+  ASSERT_EQ(all_on_three.size(), cloud.size());
+  EXPECT_EQ(std::memcmp(all_on_three.data(), cloud.data(), cloud.size() * sizeof(ColoredPoint)), 0);
 }
 
 TEST(PointCloud, RefusesSettingsThatMeanNothing)

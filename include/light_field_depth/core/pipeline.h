@@ -57,14 +57,18 @@ struct ProductRequest
   bool depth = false;
   bool organized_cloud = false;
   bool dense_cloud = false;
+  /// Where the points go; empty: into the vectors of the result.
+  PointRoom organized_cloud_room;
+  PointRoom dense_cloud_room;
 };
 
 struct PipelineResult
 {
   DisparityEstimate estimate;
   cv::Mat depth;  ///< CV_32FC1 metres, NaN where unknown; empty without calibration
-  std::vector<ColoredPoint> organized_cloud;  ///< row-major, NaN where unknown; empty without calibration
-  std::vector<ColoredPoint> dense_cloud;      ///< no NaN; empty without calibration
+  // Both clouds are empty without calibration, and where the request has room for them.
+  std::vector<ColoredPoint> organized_cloud;  ///< row-major, NaN where unknown
+  std::vector<ColoredPoint> dense_cloud;      ///< no NaN
   std::vector<StageTime> stage_times;
   double total_ms = 0.0;
 };
@@ -93,6 +97,8 @@ public:
 
 private:
   Estimator& estimatorFor(const PipelineOptions& options);
+  void unproject(const LightField& light_field, const PipelineOptions& options, const ProductRequest& request,
+                 RunContext& context, PipelineResult& result);
 
   CancellationToken cancellation_;
   ThreadPool pool_;

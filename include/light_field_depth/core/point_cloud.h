@@ -1,7 +1,9 @@
 #ifndef LIGHT_FIELD_DEPTH_CORE_POINT_CLOUD_H
 #define LIGHT_FIELD_DEPTH_CORE_POINT_CLOUD_H
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,11 @@ struct ColoredPoint
 };
 static_assert(sizeof(ColoredPoint) == 16, "the clouds are written straight into message buffers");
 
+/// Room for the points of a cloud in memory of the caller's, such as the buffer of a message. Called once, on
+/// the calling thread, when the number of points is known; what it throws comes out of the function that
+/// makes the cloud.
+using PointRoom = std::function<ColoredPoint*(std::size_t count)>;
+
 /// The depth of the reference view as an organised cloud (paper, 3.3.1).
 /// @param disparity  CV_32FC1, the reference view's
 /// @param confidence CV_32FC1, or empty
@@ -50,8 +57,13 @@ std::vector<std::string> validate(const DenseCloudOptions& options);
 
 /// The extra dense cloud (paper, 3.3.2): every pixel of every view's map, unprojected with the centre and the
 /// colour of its own camera. No NaN in it; the order of the points depends on nothing but the input.
+/// @param room asked for as many points as there are
 /// @pre light_field.calibration is set
 /// @pre validate(options) is empty
+void denseCloud(const LightField& light_field, const std::vector<ViewDisparity>& maps,
+                const DenseCloudOptions& options, ThreadPool& pool, const PointRoom& room);
+
+/// The same, into a vector.
 std::vector<ColoredPoint> denseCloud(const LightField& light_field, const std::vector<ViewDisparity>& maps,
                                      const DenseCloudOptions& options, ThreadPool& pool);
 

@@ -13,13 +13,26 @@ constexpr float NOTHING = -std::numeric_limits<float>::infinity();
 constexpr int MAX_CRACK_PX = 2;
 constexpr float MAX_CRACK_JUMP_PX = 0.5F;  // of displacement in the view
 
+/// Like cv::Mat::create(), but never gives memory that another matrix header sees.
+void createUnshared(const cv::Size& size, cv::Mat& values)
+{
+  if (values.u == nullptr || values.u->refcount > 1)
+  {
+    values.release();
+  }
+  values.create(size, CV_32FC1);
+}
+
 void scatter(const cv::Mat& disparity, const cv::Mat& confidence, const View& view, ViewDisparity& map)
 {
-  map.disparity.create(disparity.size(), CV_32FC1);
+  createUnshared(disparity.size(), map.disparity);
   map.disparity.setTo(NOTHING);
-  map.confidence = cv::Mat::zeros(disparity.size(), CV_32FC1);
+  createUnshared(disparity.size(), map.confidence);
+  map.confidence.setTo(0.0F);
   const auto step_x = static_cast<float>(view.steps.x);
   const auto step_y = static_cast<float>(view.steps.y);
+  const auto columns = static_cast<float>(disparity.cols);
+  const auto rows = static_cast<float>(disparity.rows);
   for (int y = 0; y < disparity.rows; ++y)
   {
     const auto* const row = disparity.ptr<float>(y);
@@ -28,17 +41,20 @@ void scatter(const cv::Mat& disparity, const cv::Mat& confidence, const View& vi
     const float base_y = static_cast<float>(view.offset_px.y) + static_cast<float>(y) + 0.5F;
     for (int x = 0; x < disparity.cols; ++x)
     {
-      const auto to_x = static_cast<int>(std::floor(static_cast<float>(x) + base_x - row[x] * step_x));
-      const auto to_y = static_cast<int>(std::floor(base_y - row[x] * step_y));
-      if (to_x < 0 || to_x >= disparity.cols || to_y < 0 || to_y >= disparity.rows)
+      const float to_x = static_cast<float>(x) + base_x - row[x] * step_x;
+      const float to_y = base_y - row[x] * step_y;
+      // Compared as floats: the conversion below is then the floor, without a call of it.
+      if (!(to_x >= 0.0F && to_x < columns && to_y >= 0.0F && to_y < rows))
       {
         continue;
       }
-      float& target = map.disparity.at<float>(to_y, to_x);
+      const int target_y = static_cast<int>(to_y);
+      const int target_x = static_cast<int>(to_x);
+      float& target = map.disparity.ptr<float>(target_y)[target_x];
       if (row[x] > target)
       {
         target = row[x];
-        map.confidence.at<float>(to_y, to_x) = trust[x];
+        map.confidence.ptr<float>(target_y)[target_x] = trust[x];
       }
     }
   }
@@ -102,14 +118,60 @@ void fillAlongRows(ViewDisparity& map, float max_jump)
   }
 }
 
+/// All columns side by side, row after row, because a column alone touches a cache line for each pixel.
 void fillAlongColumns(ViewDisparity& map, float max_jump)
 {
+  const int rows = map.disparity.rows;
+  const auto column = [&map, rows](int x)
+  {
+    return Line{map.disparity.ptr<float>() + x, map.confidence.ptr<float>() + x,
+                static_cast<std::size_t>(map.disparity.cols), rows};
+  };
+  std::vector<int> gap_begin(static_cast<std::size_t>(map.disparity.cols), 0);
+  for (int y = 0; y < rows; ++y)
+  {
+    const auto* const row = map.disparity.ptr<float>(y);
+    for (int x = 0; x < map.disparity.cols; ++x)
+    {
+      int& begin = gap_begin[static_cast<std::size_t>(x)];
+      if (row[x] == NOTHING)
+      {
+        continue;
+      }
+      if (begin < y)
+      {
+        fillGap(column(x), begin, y, max_jump);
+      }
+      begin = y + 1;
+    }
+  }
   for (int x = 0; x < map.disparity.cols; ++x)
   {
-    fillLine({map.disparity.ptr<float>() + x, map.confidence.ptr<float>() + x,
-              static_cast<std::size_t>(map.disparity.cols), map.disparity.rows},
-             max_jump);
+    const int begin = gap_begin[static_cast<std::size_t>(x)];
+    if (begin < rows)
+    {
+      fillGap(column(x), begin, rows, max_jump);
+    }
   }
+}
+
+/// Whether a fill along rows found a row without any pixel; it leaves such a row as it was.
+bool hasEmptyRow(const ViewDisparity& map)
+{
+  for (int y = 0; y < map.disparity.rows; ++y)
+  {
+    if (map.disparity.at<float>(y, 0) == NOTHING)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool hasEmptyColumn(const ViewDisparity& map)
+{
+  const auto* const row = map.disparity.ptr<float>();
+  return std::find(row, row + map.disparity.cols, NOTHING) != row + map.disparity.cols;
 }
 
 void fill(const View& view, ViewDisparity& map)
@@ -119,23 +181,34 @@ void fill(const View& view, ViewDisparity& map)
   if (std::abs(view.steps.x) >= std::abs(view.steps.y))
   {
     fillAlongRows(map, max_jump);
-    fillAlongColumns(map, max_jump);  // rows that nothing reached
+    if (hasEmptyRow(map))
+    {
+      fillAlongColumns(map, max_jump);
+    }
   }
   else
   {
     fillAlongColumns(map, max_jump);
-    fillAlongRows(map, max_jump);
+    if (hasEmptyColumn(map))
+    {
+      fillAlongRows(map, max_jump);
+    }
   }
+}
+
+float lowestOf(const cv::Mat& disparity)
+{
+  double lowest = 0.0;
+  cv::minMaxIdx(disparity, &lowest);
+  return static_cast<float>(lowest);
 }
 
 }  // namespace
 
-std::vector<ViewDisparity> warpToViews(const LightField& light_field, const cv::Mat& disparity,
-                                       const cv::Mat& confidence, ThreadPool& pool)
+void warpToViews(const LightField& light_field, const cv::Mat& disparity, const cv::Mat& confidence,
+                 ThreadPool& pool, std::vector<ViewDisparity>& maps)
 {
-  std::vector<ViewDisparity> maps(light_field.views.size());
-  const float lowest =
-      static_cast<float>(*std::min_element(disparity.begin<float>(), disparity.end<float>()));
+  maps.resize(light_field.views.size());
   pool.parallelFor(0, static_cast<int>(maps.size()), 1,
                    [&](int first, int last)
                    {
@@ -145,11 +218,13 @@ std::vector<ViewDisparity> warpToViews(const LightField& light_field, const cv::
                        maps[index].view_index = index;
                        scatter(disparity, confidence, light_field.views[index], maps[index]);
                        fill(light_field.views[index], maps[index]);
-                       // A view that sees nothing of the reference's surfaces at all.
-                       maps[index].disparity.setTo(lowest, maps[index].disparity == NOTHING);
+                       if (maps[index].disparity.at<float>(0, 0) == NOTHING)
+                       {
+                         // The view sees nothing of the reference's surfaces at all.
+                         maps[index].disparity.setTo(lowestOf(disparity));
+                       }
                      }
                    });
-  return maps;
 }
 
 }  // namespace light_field_depth::multiview

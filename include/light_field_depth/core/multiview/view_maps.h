@@ -15,8 +15,9 @@ namespace light_field_depth::multiview
 /// the nearest in front. Gaps that a slanted surface leaves take the confidence of their neighbours; pixels
 /// that the reference view does not see take the disparity of the background beside them and confidence 0.
 /// @param disparity, confidence CV_32FC1 of the reference view, finite, in pixels per unit of View::steps
-std::vector<ViewDisparity> warpToViews(const LightField& light_field, const cv::Mat& disparity,
-                                       const cv::Mat& confidence, ThreadPool& pool);
+/// @param maps one for each view; memory that they bring is used again unless somebody else holds it
+void warpToViews(const LightField& light_field, const cv::Mat& disparity, const cv::Mat& confidence,
+                 ThreadPool& pool, std::vector<ViewDisparity>& maps);
 
 }  // namespace light_field_depth::multiview
 
