@@ -7,17 +7,16 @@
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/ros/input_report.h"
+#include "light_field_depth/ros/result_messages.h"
 
 namespace light_field_depth
 {
 namespace
 {
-using SteadyTime = std::chrono::steady_clock::time_point;
-
 const ros::WallDuration WATCH_PERIOD(1.0);
 constexpr double NANOSECONDS_PER_MILLISECOND = 1e6;
 
-double millisecondsBetween(SteadyTime from, SteadyTime to)
+double millisecondsBetween(FrameReport::Time from, FrameReport::Time to)
 {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
@@ -27,38 +26,33 @@ std::size_t queueCapacity(const NodeParameters& parameters)
   return parameters.keep_all ? static_cast<std::size_t>(parameters.keep_all_limit) : 1;
 }
 
-/// When the steps of one frame were done.
-struct FrameTimes
+void addTimes(const FrameReport& report, const PipelineResult& result, LightFieldDepthStats& stats)
 {
-  SteadyTime taken;
-  SteadyTime assembled;
-  SteadyTime computed;
-  SteadyTime published;
-};
-
-LightFieldDepthStats frameStats(const FrameSet& set, const FrameTimes& times, const PipelineResult& result)
-{
-  LightFieldDepthStats stats;
-  stats.views_expected = static_cast<std::uint32_t>(set.images.size());
-  stats.views_used = static_cast<std::uint32_t>(result.estimate.views_used);
-  stats.disparity_min = result.estimate.range.min;
-  stats.disparity_max = result.estimate.range.max;
-  stats.latency_ms = millisecondsBetween(set.arrival, times.published);
-  stats.waiting_ms = millisecondsBetween(set.arrival, times.taken);
-  stats.conversion_ms = millisecondsBetween(times.taken, times.assembled);
-  stats.pipeline_ms = millisecondsBetween(times.assembled, times.computed);
-  stats.publication_ms = millisecondsBetween(times.computed, times.published);
-  stats.stamp_spread_ms = static_cast<double>(set.stamp_spread_ns) / NANOSECONDS_PER_MILLISECOND;
+  stats.latency_ms = millisecondsBetween(report.arrived, report.published);
+  stats.waiting_ms = millisecondsBetween(report.arrived, report.taken);
+  stats.conversion_ms = millisecondsBetween(report.taken, report.assembled);
+  stats.pipeline_ms = millisecondsBetween(report.assembled, report.computed);
+  stats.publication_ms = millisecondsBetween(report.computed, report.published);
+  stats.stamp_spread_ms = static_cast<double>(report.stamp_spread_ns) / NANOSECONDS_PER_MILLISECOND;
   for (const StageTime& time : result.stage_times)
   {
     stats.stage_names.push_back(time.stage);
     stats.stage_ms.push_back(time.milliseconds);
   }
-  return stats;
+}
+
+void addRecent(const RecentFrames::Summary& recent, LightFieldDepthStats& stats)
+{
+  stats.recent_frames = static_cast<std::uint32_t>(recent.frames);
+  stats.recent_rate_hz = recent.rate_hz;
+  stats.recent_latency_median_ms = recent.median_ms;
+  stats.recent_latency_p99_ms = recent.p99_ms;
+  stats.recent_latency_longest_ms = recent.longest_ms;
 }
 
 void addInputCounts(const ViewSynchronizerStatistics& input, LightFieldDepthStats& stats)
 {
+  stats.sets_complete = input.sets_complete;
   stats.sets_incomplete = input.sets_dropped;
   stats.time_jumps = input.time_jumps;
   for (const ViewCounts& counts : input.views)
@@ -67,15 +61,6 @@ void addInputCounts(const ViewSynchronizerStatistics& input, LightFieldDepthStat
     stats.dropped_by_view.push_back(counts.dropped);
     stats.missing_by_view.push_back(counts.missing);
   }
-}
-
-ProductRequest productsFor(const Audience& audience, const NodeSettings& settings)
-{
-  ProductRequest request;
-  request.depth = audience.depth;
-  request.organized_cloud = audience.points2;
-  request.dense_cloud = audience.points_dense && settings.dense_cloud;
-  return request;
 }
 
 }  // namespace
@@ -119,6 +104,7 @@ DepthNode::~DepthNode()
   watch_timer_.stop();
   reset_service_.shutdown();
   input_.unsubscribe();
+  publication_.stop();  // before the worker ends, which may be waiting for it
   worker_.join();
   results_->shutdown();
 }
@@ -215,45 +201,96 @@ void DepthNode::processSafely(const FrameSet& set)
 
 void DepthNode::process(const FrameSet& set, const Audience& audience)
 {
-  FrameTimes times;
-  times.taken = std::chrono::steady_clock::now();
-  const std::shared_ptr<const NodeSettings> settings = settings_.snapshot();
+  FrameReport report;
+  report.views_expected = set.images.size();
+  report.stamp_spread_ns = set.stamp_spread_ns;
+  report.arrived = set.arrival;
+  report.taken = std::chrono::steady_clock::now();
   const std::vector<sensor_msgs::CameraInfoConstPtr> infos = input_.cameraInfos();
   const LightField light_field = assembler_.assemble(set.images, infos);
   for (const std::string& warning : assembler_.warnings())
   {
     diagnostics_.warn(warning);
   }
-  times.assembled = std::chrono::steady_clock::now();
-  const PipelineResult result =
-      pipeline_.run(light_field, settings->pipeline, productsFor(audience, *settings));
-  times.computed = std::chrono::steady_clock::now();
+  report.assembled = std::chrono::steady_clock::now();
 
   std_msgs::Header header = set.images[parameters_.array.reference]->header;
   if (!parameters_.frame_id.empty())
   {
     header.frame_id = parameters_.frame_id;
   }
-  Audience served = audience;
-  served.points_dense = audience.points_dense && settings->dense_cloud;
-  results_->publish(header, served, light_field, result, settings->pipeline.min_confidence,
-                    infos[parameters_.array.reference]);
-  times.published = std::chrono::steady_clock::now();
+  const std::shared_ptr<const NodeSettings> settings = settings_.snapshot();
+  report.method = toString(settings->pipeline.method);
+  const auto products = std::make_shared<FrameProducts>(compute(light_field, *settings, header, audience));
+  products->info = infos[parameters_.array.reference];
+  report.computed = std::chrono::steady_clock::now();
+  publication_.run([this, products, report] { publishSafely(*products, report); });
+}
 
-  LightFieldDepthStats stats = frameStats(set, times, result);
-  diagnostics_.framePublished(stats.latency_ms);
-  if (audience.stats)
+FrameProducts DepthNode::compute(const LightField& light_field, const NodeSettings& settings,
+                                 const std_msgs::Header& header, const Audience& audience)
+{
+  FrameProducts products;
+  products.header = header;
+  products.audience = audience;
+  products.calibration = *light_field.calibration;
+  products.min_confidence = settings.pipeline.min_confidence;
+
+  ProductRequest request;
+  request.depth = audience.depth;
+  request.organized_cloud = audience.points2;
+  request.organized_cloud_room = [&](std::size_t /*count*/)
   {
-    stats.header = header;
-    stats.published = ros::Time::now();
-    stats.disparity_offset = static_cast<float>(light_field.calibration->disparity_offset_px);
-    stats.method = toString(settings->pipeline.method);
-    stats.frames_published = diagnostics_.framesPublished();
-    stats.frames_failed = diagnostics_.framesFailed();
-    stats.frames_dropped = queue_.dropped();
-    addInputCounts(input_.statistics(), stats);
-    results_->publish(stats);
+    products.points2 = organized_clouds_.take();
+    return shapeOrganizedCloud(header, light_field.size(), *products.points2);
+  };
+  request.dense_cloud = audience.points_dense && settings.dense_cloud;
+  request.dense_cloud_room = [&](std::size_t count)
+  {
+    products.points_dense = dense_clouds_.take();
+    return shapeDenseCloud(header, count, *products.points_dense);
+  };
+  products.result = pipeline_.run(light_field, settings.pipeline, request);
+  return products;
+}
+
+void DepthNode::publishSafely(const FrameProducts& products, FrameReport report)
+{
+  try
+  {
+    results_->publish(products);
+    report.published = std::chrono::steady_clock::now();
+    diagnostics_.framePublished(millisecondsBetween(report.arrived, report.published));
+    if (products.audience.stats)
+    {
+      results_->publish(statsOf(products, report));
+    }
   }
+  catch (const std::exception& error)
+  {
+    diagnostics_.frameFailed(error.what());
+  }
+}
+
+LightFieldDepthStats DepthNode::statsOf(const FrameProducts& products, const FrameReport& report) const
+{
+  const DisparityEstimate& estimate = products.result.estimate;
+  LightFieldDepthStats stats;
+  stats.header = products.header;
+  stats.published = ros::Time::now();
+  stats.method = report.method;
+  stats.views_expected = static_cast<std::uint32_t>(report.views_expected);
+  stats.views_used = static_cast<std::uint32_t>(estimate.views_used);
+  stats.disparity_min = estimate.range.min;
+  stats.disparity_max = estimate.range.max;
+  stats.disparity_offset = static_cast<float>(products.calibration.disparity_offset_px);
+  addTimes(report, products.result, stats);
+  addRecent(diagnostics_.recentFrames(), stats);
+  stats.frames_published = diagnostics_.framesPublished();
+  stats.frames_failed = diagnostics_.framesFailed();
+  stats.frames_dropped = queue_.dropped();
+  addInputCounts(input_.statistics(), stats);
+  return stats;
 }
 
 }  // namespace light_field_depth

@@ -30,8 +30,7 @@ void NodeDiagnostics::framePublished(double latency_ms)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++frames_published_;
-  last_latency_ms_ = latency_ms;
-  longest_latency_ms_ = std::max(longest_latency_ms_, latency_ms);
+  recent_.add(latency_ms, std::chrono::steady_clock::now());
   last_failure_.clear();
   last_warning_.clear();
 }
@@ -67,6 +66,12 @@ std::uint64_t NodeDiagnostics::framesFailed() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   return frames_failed_;
+}
+
+RecentFrames::Summary NodeDiagnostics::recentFrames() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return recent_.summary();
 }
 
 void NodeDiagnostics::update(const ViewSynchronizerStatistics& input, std::uint64_t frames_dropped,
@@ -132,8 +137,11 @@ void NodeDiagnostics::reportFrames(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("published", frames_published_);
   status.add("failed", frames_failed_);
   status.add("replaced by newer ones", frames_dropped_);
-  status.add("latency of the last, ms", last_latency_ms_);
-  status.add("longest latency, ms", longest_latency_ms_);
+  const RecentFrames::Summary recent = recent_.summary();
+  status.add("recent rate, Hz", recent.rate_hz);
+  status.add("recent latency, median, ms", recent.median_ms);
+  status.add("recent latency, 99th percentile, ms", recent.p99_ms);
+  status.add("recent latency, longest, ms", recent.longest_ms);
 }
 
 }  // namespace light_field_depth

@@ -1,13 +1,13 @@
 #include "light_field_depth/ros/result_messages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <string>
 
 #include <sensor_msgs/image_encodings.h>
-#include <sensor_msgs/point_cloud2_iterator.h>
 #include <boost/endian/conversion.hpp>
 #include <boost/make_shared.hpp>
 #include <opencv2/imgproc.hpp>
@@ -77,28 +77,30 @@ Bounds writeAbsoluteDisparity(const DisparityEstimate& estimate, float offset_px
   return bounds;
 }
 
-sensor_msgs::PointCloud2Ptr cloudMessage(const std_msgs::Header& header,
-                                         const std::vector<ColoredPoint>& points, std::uint32_t width,
-                                         std::uint32_t height, bool is_dense)
+ColoredPoint* shapeCloud(const std_msgs::Header& header, std::uint32_t width, std::uint32_t height,
+                         bool is_dense, sensor_msgs::PointCloud2& cloud)
 {
-  auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
-  cloud->header = header;
-  sensor_msgs::PointCloud2Modifier modifier(*cloud);
   using sensor_msgs::PointField;
+  const std::size_t bytes = sizeof(ColoredPoint) * static_cast<std::size_t>(width) * height;
+  cloud.header = header;
+  cloud.width = width;
+  cloud.height = height;
   // "rgb" is a float by name only; its bytes are b, g, r, 0.
-  modifier.setPointCloud2Fields(4, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
-                                PointField::FLOAT32, "rgb", 1, PointField::FLOAT32);
-  cloud->is_bigendian = hostIsBigEndian();
-  cloud->is_dense = is_dense;
-  cloud->width = width;
-  cloud->height = height;
-  cloud->row_step = cloud->point_step * width;
-  cloud->data.resize(static_cast<std::size_t>(cloud->row_step) * height);
-  if (!points.empty())
+  cloud.fields.resize(4);
+  const std::array<const char*, 4> names = {"x", "y", "z", "rgb"};
+  for (std::size_t i = 0; i < names.size(); ++i)
   {
-    std::memcpy(cloud->data.data(), points.data(), cloud->data.size());
+    cloud.fields[i].name = names[i];
+    cloud.fields[i].offset = static_cast<std::uint32_t>(i * sizeof(float));
+    cloud.fields[i].datatype = PointField::FLOAT32;
+    cloud.fields[i].count = 1;
   }
-  return cloud;
+  cloud.is_bigendian = hostIsBigEndian();
+  cloud.is_dense = is_dense;
+  cloud.point_step = sizeof(ColoredPoint);
+  cloud.row_step = cloud.point_step * width;
+  cloud.data.resize(bytes);
+  return reinterpret_cast<ColoredPoint*>(cloud.data.data());
 }
 
 }  // namespace
@@ -149,24 +151,23 @@ sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header, cons
   return message;
 }
 
-sensor_msgs::PointCloud2Ptr organizedCloudMessage(const std_msgs::Header& header,
-                                                  const std::vector<ColoredPoint>& points,
-                                                  const cv::Size& size)
+ColoredPoint* shapeOrganizedCloud(const std_msgs::Header& header, const cv::Size& size,
+                                  sensor_msgs::PointCloud2& cloud)
 {
-  return cloudMessage(header, points, static_cast<std::uint32_t>(size.width),
-                      static_cast<std::uint32_t>(size.height), false);
+  return shapeCloud(header, static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height),
+                    false, cloud);
 }
 
-sensor_msgs::PointCloud2Ptr denseCloudMessage(const std_msgs::Header& header,
-                                              const std::vector<ColoredPoint>& points)
+ColoredPoint* shapeDenseCloud(const std_msgs::Header& header, std::size_t points,
+                              sensor_msgs::PointCloud2& cloud)
 {
-  if (points.size() * sizeof(ColoredPoint) > MAX_MESSAGE_BYTES)
+  if (points * sizeof(ColoredPoint) > MAX_MESSAGE_BYTES)
   {
-    throw InputError("The dense cloud has " + std::to_string(points.size()) +
+    throw InputError("The dense cloud has " + std::to_string(points) +
                      " points, which are more bytes than ROS transports in a message; raise "
                      "dense_cloud_voxel_size_m or dense_cloud_min_confidence.");
   }
-  return cloudMessage(header, points, static_cast<std::uint32_t>(points.size()), 1, true);
+  return shapeCloud(header, static_cast<std::uint32_t>(points), 1, true, cloud);
 }
 
 }  // namespace light_field_depth

@@ -72,17 +72,16 @@ Audience ResultPublisher::audience() const
   return audience;
 }
 
-void ResultPublisher::publish(const std_msgs::Header& header, const Audience& audience,
-                              const LightField& light_field, const PipelineResult& result,
-                              float min_confidence, const sensor_msgs::CameraInfoConstPtr& info) const
+void ResultPublisher::publish(const FrameProducts& products) const
 {
+  const auto& [header, audience, calibration, min_confidence, result, points2, points_dense, info] = products;
   if (audience.camera_info && info != nullptr)
   {
     camera_info_.publish(referenceInfo(header, *info));
   }
   if (audience.disparity)
   {
-    disparity_.publish(disparityMessage(header, result.estimate, *light_field.calibration, min_confidence));
+    disparity_.publish(disparityMessage(header, result.estimate, calibration, min_confidence));
   }
   if (audience.disparity_color)
   {
@@ -96,13 +95,13 @@ void ResultPublisher::publish(const std_msgs::Header& header, const Audience& au
   {
     confidence_.publish(floatImageMessage(header, result.estimate.confidence));
   }
-  if (audience.points2)
+  if (points2 != nullptr)
   {
-    points2_.publish(organizedCloudMessage(header, result.organized_cloud, light_field.size()));
+    points2_.publish(points2);
   }
-  if (audience.points_dense)
+  if (points_dense != nullptr)
   {
-    points_dense_.publish(denseCloudMessage(header, result.dense_cloud));
+    points_dense_.publish(points_dense);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "light_field_depth/ros/result_messages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@
 #include <pcl/point_types.h>
 #include <pcl_conversions/pcl_conversions.h>
 
+#include "light_field_depth/core/error.h"
 #include "light_field_depth/core/geometry.h"
 
 namespace light_field_depth
@@ -113,12 +115,19 @@ std::vector<ColoredPoint> points()
 
 TEST(CloudMessages, AreWhatPclReads)
 {
-  const auto message = organizedCloudMessage(header(), points(), {2, 1});
-  EXPECT_EQ(message->point_step, 16U);
-  EXPECT_EQ(message->row_step, 32U);
-  EXPECT_FALSE(message->is_dense);
+  sensor_msgs::PointCloud2 message;
+  message.fields.resize(7);  // of whatever it held before
+  message.data.resize(1000, 77);
+  const std::vector<ColoredPoint> written = points();
+  std::copy(written.begin(), written.end(), shapeOrganizedCloud(header(), {2, 1}, message));
+  EXPECT_EQ(message.header.frame_id, header().frame_id);
+  EXPECT_EQ(message.fields.size(), 4U);
+  EXPECT_EQ(message.point_step, 16U);
+  EXPECT_EQ(message.row_step, 32U);
+  EXPECT_EQ(message.data.size(), 32U);
+  EXPECT_FALSE(message.is_dense);
   pcl::PointCloud<pcl::PointXYZRGB> cloud;
-  pcl::fromROSMsg(*message, cloud);
+  pcl::fromROSMsg(message, cloud);
   ASSERT_EQ(cloud.size(), 2U);
   EXPECT_FLOAT_EQ(cloud[0].y, 2.0F);
   EXPECT_EQ(cloud[0].b, 10);
@@ -129,11 +138,20 @@ TEST(CloudMessages, AreWhatPclReads)
 
 TEST(CloudMessages, OfTheDenseCloudAreUnorganised)
 {
-  const auto message = denseCloudMessage(header(), {points()[0]});
-  EXPECT_EQ(message->height, 1U);
-  EXPECT_EQ(message->width, 1U);
-  EXPECT_TRUE(message->is_dense);
-  EXPECT_EQ(denseCloudMessage(header(), {})->data.size(), 0U);
+  sensor_msgs::PointCloud2 message;
+  *shapeDenseCloud(header(), 1, message) = points()[0];
+  EXPECT_EQ(message.height, 1U);
+  EXPECT_EQ(message.width, 1U);
+  EXPECT_TRUE(message.is_dense);
+  shapeDenseCloud(header(), 0, message);
+  EXPECT_EQ(message.data.size(), 0U);
+}
+
+TEST(CloudMessages, AreRefusedWhenRosWouldNotTransportThem)
+{
+  sensor_msgs::PointCloud2 message;
+  EXPECT_THROW(shapeDenseCloud(header(), 62500001, message), InputError);
+  EXPECT_TRUE(message.data.empty());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <ros/node_handle.h>
 
 #include "light_field_depth/core/view_synchronizer.h"
+#include "light_field_depth/ros/recent_frames.h"
 
 namespace light_field_depth
 {
@@ -20,7 +21,7 @@ class NodeDiagnostics
 public:
   NodeDiagnostics(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle);
 
-  /// A frame has been published. @param latency_ms from the arrival of its last image
+  /// A frame has been published, just now. @param latency_ms from the arrival of its last image
   void framePublished(double latency_ms);
   /// A frame could not be worked on. The sentence goes into the log unless it has just been there.
   void frameFailed(const std::string& sentence);
@@ -29,6 +30,7 @@ public:
 
   std::uint64_t framesPublished() const;
   std::uint64_t framesFailed() const;
+  RecentFrames::Summary recentFrames() const;
 
   /// Publishes the diagnostics when they are due.
   void update(const ViewSynchronizerStatistics& input, std::uint64_t frames_dropped, bool listening);
@@ -41,8 +43,7 @@ private:
   mutable std::mutex mutex_;  ///< guards what follows
   std::uint64_t frames_published_ = 0;
   std::uint64_t frames_failed_ = 0;
-  double last_latency_ms_ = 0.0;
-  double longest_latency_ms_ = 0.0;
+  RecentFrames recent_;
   std::string last_failure_;  ///< empty after a frame that went well
   std::string last_warning_;  ///< likewise
   std::string last_logged_;

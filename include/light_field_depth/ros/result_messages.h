@@ -1,7 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_ROS_RESULT_MESSAGES_H
 #define LIGHT_FIELD_DEPTH_ROS_RESULT_MESSAGES_H
 
-#include <vector>
+#include <cstddef>
 
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -33,16 +33,15 @@ sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv
 sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header,
                                             const DisparityEstimate& estimate);
 
-/// x y z rgb in 16 bytes a point; organised, with NaN, is_dense false.
-/// @param points size.area() of them, row-major
-sensor_msgs::PointCloud2Ptr organizedCloudMessage(const std_msgs::Header& header,
-                                                  const std::vector<ColoredPoint>& points,
-                                                  const cv::Size& size);
+/// Makes a message of any content a cloud of x y z rgb in 16 bytes a point; organised, with NaN, is_dense
+/// false. @return where its points go, size.area() of them, row-major
+ColoredPoint* shapeOrganizedCloud(const std_msgs::Header& header, const cv::Size& size,
+                                  sensor_msgs::PointCloud2& cloud);
 
-/// The same, unorganised, is_dense true. @param points without NaN
+/// The same, unorganised, without NaN, is_dense true. @return where its points go
 /// @throw InputError if the message would be larger than ROS transports (1e9 bytes)
-sensor_msgs::PointCloud2Ptr denseCloudMessage(const std_msgs::Header& header,
-                                              const std::vector<ColoredPoint>& points);
+ColoredPoint* shapeDenseCloud(const std_msgs::Header& header, std::size_t points,
+                              sensor_msgs::PointCloud2& cloud);
 
 }  // namespace light_field_depth
 

@@ -8,6 +8,7 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 
 #include "light_field_depth/LightFieldDepthStats.h"
@@ -35,6 +36,19 @@ struct Audience
   }
 };
 
+/// What a frame's publication takes, and all of it: nothing here belongs to the frames that follow.
+struct FrameProducts
+{
+  std_msgs::Header header;
+  Audience audience;
+  Calibration calibration;
+  float min_confidence = 0.0F;
+  PipelineResult result;
+  sensor_msgs::PointCloud2Ptr points2;       ///< null when the audience does not want it
+  sensor_msgs::PointCloud2Ptr points_dense;  ///< likewise
+  sensor_msgs::CameraInfoConstPtr info;      ///< of the reference view; may be null
+};
+
 /// The topics of the results. Thread safe, except shutdown().
 class ResultPublisher
 {
@@ -47,10 +61,7 @@ public:
   Audience audience() const;
 
   /// Publishes what the audience of this frame listens to, all but the stats.
-  /// @param info of the reference view; may be null
-  void publish(const std_msgs::Header& header, const Audience& audience, const LightField& light_field,
-               const PipelineResult& result, float min_confidence,
-               const sensor_msgs::CameraInfoConstPtr& info) const;
+  void publish(const FrameProducts& products) const;
 
   void publish(const LightFieldDepthStats& stats) const;
 
