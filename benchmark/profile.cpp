@@ -94,15 +94,15 @@ Profiles measure(const Scene& scene, const Settings& settings)
 /// @pre the light field is a cross of nine views or has one, so that its unit of disparity is the method's
 FrameSize sizeOf(const Scene& scene, const DisparityEstimate& estimate)
 {
-  const PipelineOptions options;
+  const MultiviewOptions options = withPresetNumbers({});
   const multiview::LabelSpace labels =
-      multiview::makeLabelSpace(estimate.range, options.multiview.label_step_px, MAX_LABELS);
+      multiview::makeLabelSpace(estimate.range, options.label_step_px, MAX_LABELS);
   FrameSize frame;
   frame.pixels = static_cast<double>(estimate.disparity.total());
   frame.views = static_cast<double>(estimate.views_used) - 1.0;
   frame.channels = scene.light_field.reference().image.channels();
   frame.labels = labels.count;
-  frame.visibility_passes = options.multiview.visibility_passes;
+  frame.visibility_passes = options.visibility_passes;
   return frame;
 }
 

@@ -87,7 +87,7 @@ Series overLabels(const Settings& settings)
   for (const int labels : {16, 32, 64, 128, 240})
   {
     PipelineOptions options;
-    const float step_px = options.multiview.label_step_px;
+    const float step_px = withPresetNumbers(options.multiview).label_step_px;
     const int first = -labels / 2;
     options.disparity_range =
         DisparityRange{step_px * static_cast<float>(first), step_px * static_cast<float>(first + labels - 1)};

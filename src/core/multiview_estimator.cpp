@@ -77,23 +77,33 @@ LightField scaledSteps(LightField light_field, double scale)
   return light_field;
 }
 
-int refinementsOf(const MultiviewOptions& options)
+/// What a preset decides where the options leave it to it.
+struct PresetNumbers
 {
-  if (options.refinements != MultiviewOptions::PRESET_NUMBER)
-  {
-    return options.refinements;
-  }
-  switch (options.preset)
+  float label_step_px = 0.125F;
+  int visibility_passes = 1;
+  int refinements = 2;
+};
+
+PresetNumbers numbersOf(MultiviewPreset preset)
+{
+  switch (preset)
   {
     case MultiviewPreset::Quality:
-      return 4;
+      return {0.0625F, 2, 3};
     case MultiviewPreset::Realtime:
     case MultiviewPreset::Fast:
-      return 1;
+      return {0.125F, 1, 1};
     case MultiviewPreset::Balanced:
       break;
   }
-  return 2;
+  return {};
+}
+
+template <typename Number>
+Number chosenNumber(Number option, Number preset)
+{
+  return option == static_cast<Number>(MultiviewOptions::PRESET_NUMBER) ? preset : option;
 }
 
 /// Text that differs whenever a setting does.
@@ -135,7 +145,7 @@ SolverSettings solverSettings(const MultiviewOptions& options, const SceneMeasur
   settings.fuse_background = options.background_fusion && !settings.grey_search;
   settings.keep_thin_structures = options.thin_structures;
   settings.decide_edge_sides = options.edge_sides;
-  settings.refinements = refinementsOf(options);
+  settings.refinements = options.refinements;
   settings.linearization.brightness_slope = options.brightness_slope;
   settings.smoothing.strength = options.refinement_smoothness;
   settings.watch_scene = options.temporal;
@@ -163,8 +173,18 @@ MultiviewPreset multiviewPresetFromString(const std::string& name)
   return found->first;
 }
 
-std::vector<std::string> validate(const MultiviewOptions& options)
+MultiviewOptions withPresetNumbers(MultiviewOptions options)
 {
+  const PresetNumbers preset = numbersOf(options.preset);
+  options.label_step_px = chosenNumber(options.label_step_px, preset.label_step_px);
+  options.visibility_passes = chosenNumber(options.visibility_passes, preset.visibility_passes);
+  options.refinements = chosenNumber(options.refinements, preset.refinements);
+  return options;
+}
+
+std::vector<std::string> validate(const MultiviewOptions& given)
+{
+  const MultiviewOptions options = withPresetNumbers(given);
   std::vector<std::string> problems;
   const auto require = [&](bool good, const std::string& field, double value, const std::string& limits)
   {
@@ -175,15 +195,15 @@ std::vector<std::string> validate(const MultiviewOptions& options)
     }
   };
   require(options.label_step_px >= 0.03125F && options.label_step_px <= 1.0F, "label_step_px",
-          options.label_step_px, "between 1/32 and 1 px");
+          options.label_step_px, "between 1/32 and 1 px, or -1 for the preset's number");
   require(options.small_change_penalty >= 1 && options.small_change_penalty <= 1000, "small_change_penalty",
           options.small_change_penalty, "between 1 and 1000");
   require(options.large_change_penalty >= 1 && options.large_change_penalty <= 10000, "large_change_penalty",
           options.large_change_penalty, "between 1 and 10000");
   require(options.visibility_passes >= 0 && options.visibility_passes <= 5, "visibility_passes",
-          options.visibility_passes, "between 0 and 5");
-  require(options.refinements >= MultiviewOptions::PRESET_NUMBER && options.refinements <= 10, "refinements",
-          options.refinements, "between 0 and 10, or -1 for the preset's number");
+          options.visibility_passes, "between 0 and 5, or -1 for the preset's number");
+  require(options.refinements >= 0 && options.refinements <= 10, "refinements", options.refinements,
+          "between 0 and 10, or -1 for the preset's number");
   require(options.refinement_smoothness > 0.0F && options.refinement_smoothness <= 1e6F,
           "refinement_smoothness", options.refinement_smoothness, "positive and at most 1000000");
   return problems;
@@ -262,7 +282,8 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
     measures.noise_sigma = estimateNoise(chosen.reference().image);
   }
   const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
-  buffers_->solver.run(scaledSteps(chosen, unit), solverSettings(options_, measures, unit), context);
+  buffers_->solver.run(scaledSteps(chosen, unit), solverSettings(withPresetNumbers(options_), measures, unit),
+                       context);
   estimate.range = measures.range;
   keepResult(unit, estimate);
   if (options_.temporal)
@@ -288,7 +309,8 @@ bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& 
     chosen = compensateExposure(views, measures->exposures, context.pool);
   }
   const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
-  if (!buffers_->solver.follow(scaledSteps(chosen, unit), solverSettings(options_, *measures, unit), context))
+  if (!buffers_->solver.follow(scaledSteps(chosen, unit),
+                               solverSettings(withPresetNumbers(options_), *measures, unit), context))
   {
     return false;
   }

@@ -12,7 +12,7 @@ namespace light_field_depth
 /// How much time to spend.
 enum class MultiviewPreset
 {
-  Quality,   ///< colour everywhere, four refinements
+  Quality,   ///< colour everywhere, finer labels, occlusions found twice, three refinements
   Balanced,  ///< colour everywhere, two refinements
   Realtime,  ///< brightness alone but at edges, one refinement
   Fast       ///< as Realtime at half the resolution, brought to the full one along the edges of the image
@@ -33,17 +33,18 @@ struct MultiviewOptions
   static constexpr int PRESET_NUMBER = -1;
 
   MultiviewPreset preset = MultiviewPreset::Balanced;
-  /// Distance between the disparities that are tried, in pixels; smaller is slower and finer.
-  float label_step_px = 0.125F;
-  /// P1: cost of a change of disparity by one label between neighbours. Raise it where the result is noisy,
+  /// Distance between the disparities that are tried, in pixels; smaller is slower and finer. PRESET_NUMBER:
+  /// 1/16 with the preset quality, else 1/8.
+  float label_step_px = PRESET_NUMBER;
+  /// P1: cost of a change of disparity by 1/8 px between neighbours. Raise it where the result is noisy,
   /// lower it where slanted surfaces show steps.
   int small_change_penalty = 30;
   /// P2: cost of any larger change where the image has no edge. Raise it for large smooth objects, lower it
   /// for fine structures.
   int large_change_penalty = 1200;
-  /// Times that the views' occlusions are found from the map and the search repeated. More than one costs
-  /// time and rarely helps.
-  int visibility_passes = 1;
+  /// Times that the views' occlusions are found from the map and the search repeated. PRESET_NUMBER: twice
+  /// with the preset quality, else once.
+  int visibility_passes = PRESET_NUMBER;
   /// Move textureless regions to the farthest of their borders; the presets realtime and fast leave it out.
   bool background_fusion = true;
   /// Keep twigs and wires that a median would wipe out.
@@ -61,6 +62,9 @@ struct MultiviewOptions
   /// alone.
   bool temporal = false;
 };
+
+/// The options with the numbers that they leave to their preset.
+MultiviewOptions withPresetNumbers(MultiviewOptions options);
 
 std::vector<std::string> validate(const MultiviewOptions& options);
 

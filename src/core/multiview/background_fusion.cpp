@@ -16,8 +16,6 @@ constexpr int BLOCK_PX = 2 * TILE_PX;
 constexpr int ROWS_PER_CHUNK = 16;
 /// With fewer believed pixels about a block nothing is charged there.
 constexpr int MIN_BELIEVED = 30;
-/// Labels on each side that a believed label is compared with.
-constexpr int SUPPORT_DISTANCE = 2;
 constexpr std::int16_t NONE = -1;
 
 /// The cost between two labels of the pixel's band.
@@ -36,8 +34,8 @@ float interpolatedCost(const CostVolume& volume, int x, int y, float label)
          static_cast<float>(volume.values[index + TILE_PX]) * part;
 }
 
-/// Whether a label and those that it is compared with are in the bands of 3 x 3 pixels.
-bool isComparable(const CostVolume& volume, int x, int y, int label)
+/// Whether a label and those `distance` away on both sides are in the bands of 3 x 3 pixels.
+bool isComparable(const CostVolume& volume, int x, int y, int label, int distance)
 {
   if (x < 1 || y < 1 || x + 1 >= volume.width || y + 1 >= volume.height)
   {
@@ -46,13 +44,13 @@ bool isComparable(const CostVolume& volume, int x, int y, int label)
   const auto holds = [&](int at_x, int at_y)
   {
     const LabelBand& band = volume.bandAt(at_x, at_y);
-    return band.contains(label - SUPPORT_DISTANCE) && band.contains(label + SUPPORT_DISTANCE);
+    return band.contains(label - distance) && band.contains(label + distance);
   };
   return holds(x - 1, y - 1) && holds(x + 1, y - 1) && holds(x - 1, y + 1) && holds(x + 1, y + 1);
 }
 
-/// The mean over 3 x 3 pixels of how much worse the labels on both sides are.
-float support(const CostVolume& volume, int x, int y, int label)
+/// The mean over 3 x 3 pixels of how much worse the labels `distance` away on both sides are.
+float support(const CostVolume& volume, int x, int y, int label, int distance)
 {
   int sum = 0;
   for (int dy = -1; dy <= 1; ++dy)
@@ -60,7 +58,7 @@ float support(const CostVolume& volume, int x, int y, int label)
     for (int dx = -1; dx <= 1; ++dx)
     {
       const auto cost = [&](int other) { return static_cast<int>(volume.at(x + dx, y + dy, other)); };
-      sum += cost(label - SUPPORT_DISTANCE) + cost(label + SUPPORT_DISTANCE) - 2 * cost(label);
+      sum += cost(label - distance) + cost(label + distance) - 2 * cost(label);
     }
   }
   return static_cast<float>(sum) / 18.0F;
@@ -127,9 +125,10 @@ struct Energy
 float BackgroundFusion::biasAt(int x, int y, float label) const
 {
   const std::int16_t floor = floor_.at<std::int16_t>(y / BLOCK_PX, x / BLOCK_PX);
-  return floor == NONE ? 0.0F
-                       : std::clamp(settings_.bias_per_label * (label - static_cast<float>(floor)), 0.0F,
-                                    static_cast<float>(settings_.max_bias));
+  return floor == NONE
+             ? 0.0F
+             : std::clamp(settings_.bias_per_px * labels_.step_px * (label - static_cast<float>(floor)), 0.0F,
+                          static_cast<float>(settings_.max_bias));
 }
 
 void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparity,
@@ -161,7 +160,8 @@ void BackgroundFusion::chargeBlock(int block_x, int block_y, CostVolume& volume)
   {
     return;
   }
-  const auto charge = ramp(volume.bands.labels(), floor, settings_.bias_per_label, settings_.max_bias);
+  const auto charge =
+      ramp(volume.bands.labels(), floor, settings_.bias_per_px * labels_.step_px, settings_.max_bias);
   const int last_x = std::min((block_x + 1) * BLOCK_PX, volume.width);
   const int last_y = std::min((block_y + 1) * BLOCK_PX, volume.height);
   for (int y = block_y * BLOCK_PX; y < last_y; ++y)
@@ -178,10 +178,12 @@ void BackgroundFusion::findFloors(const CostVolume& volume, ThreadPool& pool)
 {
   data_cost_.create(label_.size(), CV_32FC1);
   supported_.create(label_.size(), CV_16SC1);
+  const int distance = std::max(1, cvRound(settings_.support_distance_px / labels_.step_px));
   const auto believed = [&](int x, int y)
   {
     const int label = cvRound(label_.at<float>(y, x));
-    return isComparable(volume, x, y, label) && support(volume, x, y, label) > settings_.min_support
+    return isComparable(volume, x, y, label, distance) &&
+                   support(volume, x, y, label, distance) > settings_.min_support
                ? static_cast<std::int16_t>(label)
                : NONE;
   };
@@ -346,9 +348,10 @@ void BackgroundFusion::hold(ThreadPool& pool, CostVolume& volume) const
                          const std::int16_t label = moved_.at<std::int16_t>(y, x);
                          if (label != NONE)
                          {
-                           const auto free_up_to = static_cast<float>(label + settings_.hold_slack);
-                           addSaturated(ramp(volume.bands.labels(), free_up_to, settings_.hold_per_label,
-                                             settings_.max_hold),
+                           const auto free_up_to =
+                               static_cast<float>(label) + settings_.hold_slack_px / labels_.step_px;
+                           addSaturated(ramp(volume.bands.labels(), free_up_to,
+                                             settings_.hold_per_px * labels_.step_px, settings_.max_hold),
                                         x, y, 1, volume);
                          }
                        }

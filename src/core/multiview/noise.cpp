@@ -18,6 +18,7 @@ constexpr float TRUNCATION_PER_SIGMA = 10.0F;
 constexpr float PENALTY_PER_SIGMA = 10.0F;
 constexpr float CONTRAST_PER_SIGMA = 6.0F;
 constexpr int MAX_TRUNCATION = 60;
+constexpr float NOISY_LABEL_STEP_PX = 0.125F;  // finer ones are below what noise lets see
 constexpr float WIDE_WINDOW_SIGMA = 2.5F;
 constexpr int WIDE_WINDOW_RADIUS = 4;
 
@@ -36,6 +37,7 @@ void adaptToNoise(float noise_sigma, SolverSettings& settings)
   settings.cost.truncation =
       std::clamp(cvRound(TRUNCATION_PER_SIGMA * left), settings.cost.truncation, MAX_TRUNCATION);
   settings.cost.unseen_penalty = std::max(settings.cost.unseen_penalty, settings.cost.truncation);
+  settings.label_step_px = std::max(settings.label_step_px, NOISY_LABEL_STEP_PX);
   settings.paths.small_step += cvRound(PENALTY_PER_SIGMA * left);
   settings.edge_sides.min_contrast += CONTRAST_PER_SIGMA * left;
   if (noise_sigma >= WIDE_WINDOW_SIGMA)

@@ -19,6 +19,8 @@ constexpr float BAND_MARGIN_LABELS = 4.0F;
 constexpr int FOLLOWED_REACH_PX = 12;
 constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
 constexpr int MEDIAN_SIZE = 5;
+/// Distance of the labels that SolverSettings::paths is meant for.
+constexpr float UNIT_LABEL_STEP_PX = 0.125F;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
 
@@ -83,6 +85,9 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
 {
   const StageTimer timer(context, "prepare");
   labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
+  paths_ = settings.paths;
+  const float small_step = static_cast<float>(paths_.small_step) * labels_.step_px / UNIT_LABEL_STEP_PX;
+  paths_.small_step = std::max(1, cvRound(small_step));
   ViewSetSettings view_settings;
   view_settings.grey = settings.grey_search;
   view_settings.blur_sigma_px = settings.blur_sigma_px;
@@ -111,7 +116,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
   }
   {
     const StageTimer timer(context, "aggregate");
-    aggregator_.setGuide(guide(), settings.paths, context.pool);
+    aggregator_.setGuide(guide(), paths_, context.pool);
   }
   aggregate(settings, context);
   if (settings.watch_scene && !acceptFirstMap(settings, where, context))
@@ -200,14 +205,14 @@ void Solver::fuseBackground(const SolverSettings& settings, RunContext& context)
   const StageTimer timer(context, "background");
   cv::swap(disparity_, searched_);
   save(context, "multiview_background", searched_);
-  background_.fuse(volume_, aggregator_, settings.paths, searched_, disparity_);
+  background_.fuse(volume_, aggregator_, paths_, searched_, disparity_);
 }
 
 void Solver::aggregate(const SolverSettings& settings, RunContext& context)
 {
   {
     const StageTimer timer(context, "aggregate");
-    aggregator_.aggregate(volume_, settings.paths, context.pool, label_);
+    aggregator_.aggregate(volume_, paths_, context.pool, label_);
   }
   const StageTimer timer(context, "median");
   label_.convertTo(scratch_, CV_32F, labels_.step_px, labels_.first_px);

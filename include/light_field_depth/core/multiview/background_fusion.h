@@ -16,16 +16,17 @@ namespace light_field_depth::multiview
 /// What a second search that prefers the background may change. Costs in the units of FULL_COST.
 struct BackgroundSettings
 {
-  float bias_per_label = 1.5F;   ///< charge for a label nearer than the floor
-  int max_bias = 48;             ///< of that charge
-  float min_support = 12.0F;     ///< how much a label must be better than those two away to be believed
+  float bias_per_px = 12.0F;  ///< charge for a label nearer than the floor
+  int max_bias = 48;          ///< of that charge
+  float support_distance_px = 0.25F;
+  float min_support = 12.0F;  ///< how much a label must be better than those at that distance to be believed
   float floor_quantile = 0.05F;  ///< of the believed labels about a block: nothing is taken to be farther
   float min_drop_px = 0.15F;     ///< smaller differences of the two searches are left alone
   float accepted_energy = 0.9F;  ///< a region moves back only if its energy falls below this share,
   float max_data_rise = 0.25F;   ///< its matching cost rises by less than this share of itself,
   float max_cost_rise = 4.0F;    ///< and by less than this a pixel
-  float hold_per_label = 2.0F;   ///< charge in later searches for leaving the background
-  int hold_slack = 3;            ///< labels that are free of it
+  float hold_per_px = 16.0F;     ///< charge in later searches for leaving the background
+  float hold_slack_px = 0.375F;  ///< that are free of it
   int max_hold = 20;             ///< of that charge
 };
 

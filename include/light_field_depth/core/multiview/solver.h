@@ -33,7 +33,7 @@ struct SolverSettings
   float noise_sigma = 0.0F;    ///< of the views as given, in 8-bit units
   double blur_sigma_px = 0.0;  ///< of the views before anything else
   CostSettings cost;
-  PathSettings paths;
+  PathSettings paths;  ///< small_step for labels 1/8 px apart, scaled to what the range needs
   int visibility_passes = 1;
   bool fuse_background = true;
   BackgroundSettings background;
@@ -90,6 +90,7 @@ private:
   ViewSet views_;
   PlanarImage colour_reference_;  ///< only where the views are grey and the light field is not
   LabelSpace labels_;
+  PathSettings paths_;
   LabelBands bands_;
   CostVolumeBuilder cost_builder_;
   CostVolume volume_;

@@ -11,8 +11,9 @@ namespace light_field_depth::multiview
 /// How twigs and wires that a median would wipe out are kept.
 struct ThinStructureSettings
 {
-  float min_jump_px = 0.2F;    ///< how much nearer than its surroundings a structure has to be
-  float colour_scale = 30.0F;  ///< sum of three channels: neighbours lose exp(-difference / scale) of their vote
+  float min_jump_px = 0.2F;  ///< how much nearer than its surroundings a structure has to be
+  float colour_scale =
+      30.0F;  ///< sum of three channels: neighbours lose exp(-difference / scale) of their vote
 };
 
 /// Gives a pixel the median of the neighbours that look like it, where that is nearer than the plain median.
