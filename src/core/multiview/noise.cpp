@@ -19,7 +19,7 @@ constexpr float PENALTY_PER_SIGMA = 10.0F;
 constexpr float CONTRAST_PER_SIGMA = 6.0F;
 constexpr int MAX_TRUNCATION = 60;
 constexpr float NOISY_LABEL_STEP_PX = 0.125F;  // finer ones are below what noise lets see
-constexpr float WIDE_WINDOW_SIGMA = 2.5F;
+constexpr float STRONG_SIGMA = 2.5F;
 constexpr int WIDE_WINDOW_RADIUS = 4;
 
 }  // namespace
@@ -40,9 +40,13 @@ void adaptToNoise(float noise_sigma, SolverSettings& settings)
   settings.label_step_px = std::max(settings.label_step_px, NOISY_LABEL_STEP_PX);
   settings.paths.small_step += cvRound(PENALTY_PER_SIGMA * left);
   settings.edge_sides.min_contrast += CONTRAST_PER_SIGMA * left;
-  if (noise_sigma >= WIDE_WINDOW_SIGMA)
+  if (noise_sigma >= STRONG_SIGMA)
   {
     settings.linearization.window_radius = WIDE_WINDOW_RADIUS;
+    // Worth their time only here, and only where colour is worth its time.
+    const bool once_more = !settings.grey_search;
+    settings.visibility_passes += once_more && settings.visibility_passes == 1 ? 1 : 0;
+    settings.refinements += once_more && settings.refinements > 0 ? 1 : 0;
   }
 }
 
