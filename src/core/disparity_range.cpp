@@ -11,7 +11,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "label_support.h"
-#include "light_field_depth/core/noise_estimate.h"
 #include "plane_sweep.h"
 #include "sweep_views.h"
 
@@ -43,44 +42,11 @@ struct SmallView
 
 SmallView shrink(const cv::Mat& image, int fine_halvings, int coarse_halvings)
 {
-  cv::Mat small = fine_halvings > 0 ? halve(image) : image;
-  if (small.channels() == 3)
-  {
-    cv::Mat grey;
-    cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
-    small = grey;
-  }
+  // Halved once in colour, where that is quick, and in grey from there.
+  const int first = std::min(fine_halvings, 1);
   SmallView result;
-  for (int i = 1; i < fine_halvings; ++i)
-  {
-    small = halve(small);
-  }
-  result.fine = small;
-  for (int i = fine_halvings; i < coarse_halvings; ++i)
-  {
-    small = halve(small);
-  }
-  result.coarse = small;
-  return result;
-}
-
-/// Side of the Gaussian kernel that a noisy image needs before single pixels are compared; 1 for none.
-int blurFor(const cv::Mat& image)
-{
-  constexpr float SLIGHT_NOISE = 1.0F;
-  constexpr float STRONG_NOISE = 2.0F;
-  const float noise = estimateNoise(image);
-  return noise < SLIGHT_NOISE ? 1 : noise < STRONG_NOISE ? 3 : 5;
-}
-
-cv::Mat blurred(const cv::Mat& image, int kernel_side)
-{
-  if (kernel_side <= 1)
-  {
-    return image;
-  }
-  cv::Mat result;  // must not share the pixels of the image, which may be the caller's
-  cv::GaussianBlur(image, result, cv::Size(kernel_side, kernel_side), 0.0);
+  result.fine = halve(toGrey(halve(image, first)), fine_halvings - first);
+  result.coarse = halve(result.fine, coarse_halvings - fine_halvings);
   return result;
 }
 

@@ -21,6 +21,8 @@ namespace
 {
 /// The reduced views have at least this many pixels on their longer side (if the views have them).
 constexpr int SMALL_SIDE_PX = 96;
+/// The windows of smaller views are too few.
+constexpr int LEAST_SIDE_PX = 32;
 /// Spacing of the labels, in pixels of the reduced views, in the farthest view.
 constexpr float LABEL_DISPLACEMENT = 0.5F;
 /// How far a point may move between neighbouring views.
@@ -32,17 +34,12 @@ constexpr double DARKEST_LEVEL = 5.0;
 constexpr double BRIGHTEST_LEVEL = 240.0;
 
 /// Makes mean and contrast of the surroundings alike everywhere.
-cv::Mat normalizeLocally(const cv::Mat& image)
+cv::Mat normalizeLocally(const cv::Mat& grey)
 {
   constexpr int WINDOW_SIDE = 9;
   constexpr double LEAST_DEVIATION = 4.0;
   constexpr double DEVIATION = 40.0;
   constexpr double MIDDLE = 128.0;
-  cv::Mat grey = image;
-  if (image.channels() == 3)
-  {
-    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  }
   cv::Mat values;
   cv::Mat mean;
   cv::Mat deviation;
@@ -98,20 +95,16 @@ public:
         scale_(static_cast<float>(std::ldexp(1.0, -halvings_))), small_(light_field.views.size()),
         exposed_(light_field.views.size()), normalized_(light_field.views.size())
   {
+    forEachView([&](std::size_t i) { small_[i] = halve(light_field_.views[i].image, halvings_); });
     forEachView(
         [&](std::size_t i)
         {
-          cv::Mat small = light_field_.views[i].image;
-          for (int halving = 0; halving < halvings_; ++halving)
-          {
-            small = halve(small);
-          }
           if (takesPart(i))
           {
-            normalized_[i] = normalizeLocally(small);
+            normalized_[i] = normalizeLocally(toGrey(small_[i]));
           }
-          small_[i] = lowPass(small);
-          exposed_[i] = exposedPixels(small);
+          exposed_[i] = exposedPixels(small_[i]);
+          small_[i] = lowPass(small_[i]);
         });
   }
 
@@ -178,7 +171,7 @@ private:
       plan.arms.push_back({sweepView(*arm.front())});
     }
     const CostVolume volume = sweepPlanes(plan, pool_);
-    std::vector<Match> matches = certainMatches(plan, volume);
+    std::vector<Match> matches = likelyMatches(plan, volume);
     const double farthest = farthestDistance(arms_);
     const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_);
     if (!support || farthest < 1.5 * nearest)
@@ -197,12 +190,12 @@ private:
       }
       plan.arms.push_back(std::move(sweep_arm));
     }
-    return certainMatches(plan, sweepPlanes(plan, pool_));
+    return likelyMatches(plan, sweepPlanes(plan, pool_));
   }
 
-  std::vector<Match> certainMatches(const PlaneSweep& plan, const CostVolume& volume) const
+  std::vector<Match> likelyMatches(const PlaneSweep& plan, const CostVolume& volume) const
   {
-    const std::vector<float> labels = findCertainLabels(volume, pool_);
+    const std::vector<float> labels = findLikelyLabels(volume, pool_);
     std::vector<Match> matches;
     for (std::size_t i = 0; i < labels.size(); ++i)
     {
@@ -267,6 +260,10 @@ std::vector<ViewExposure> estimateExposure(const LightField& light_field, Thread
   if (light_field.reference().image.depth() != CV_8U)
   {
     throw InputError("Exposure is estimated from 8-bit views; convert the light field first.");
+  }
+  if (std::min(light_field.size().width, light_field.size().height) < LEAST_SIDE_PX)
+  {
+    return std::vector<ViewExposure>(light_field.views.size());
   }
   return ExposureFinder(light_field, pool).find();
 }

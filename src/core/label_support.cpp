@@ -276,10 +276,11 @@ float vertexOfCost(const CostVolume& volume, int label, std::size_t pixel)
 
 }  // namespace
 
-std::vector<float> findCertainLabels(const CostVolume& volume, ThreadPool& pool)
+std::vector<float> findLikelyLabels(const CostVolume& volume, ThreadPool& pool)
 {
   const Winners winners = findWinners(volume, pool);
-  const Contrast contrast(median(winners.cost));
+  constexpr std::uint16_t SLIGHT_NOISE = SWEEP_COST_PER_GREY_LEVEL;
+  const Contrast contrast(SLIGHT_NOISE);
   std::vector<float> labels(volume.area(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < labels.size(); ++i)
   {

@@ -32,8 +32,9 @@ struct LabelSupport
 /// @return nothing if hardly any pixel is certain
 std::optional<LabelSupport> findSupportedLabels(const CostVolume& volume, ThreadPool& pool);
 
-/// For each pixel that is certain of its best label, that label, refined between labels; NaN for the others.
-std::vector<float> findCertainLabels(const CostVolume& volume, ThreadPool& pool);
+/// For each pixel that would be certain of its best label if there were little noise, that label, refined
+/// between labels; NaN for the others. For those who want many and can bear a few wrong ones.
+std::vector<float> findLikelyLabels(const CostVolume& volume, ThreadPool& pool);
 
 }  // namespace light_field_depth
 

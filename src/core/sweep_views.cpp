@@ -8,6 +8,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "light_field_depth/core/noise_estimate.h"
+
 namespace light_field_depth
 {
 namespace
@@ -107,11 +109,46 @@ int halvingsFor(const cv::Size& size, int side_px)
   return halvings;
 }
 
-cv::Mat halve(const cv::Mat& image)
+cv::Mat halve(const cv::Mat& image, int times)
 {
-  const cv::Size half(image.cols / 2, image.rows / 2);
-  cv::Mat result;
-  cv::resize(image(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), result, half, 0, 0, cv::INTER_AREA);
+  cv::Mat result = image;
+  for (int i = 0; i < times; ++i)
+  {
+    const cv::Size half(result.cols / 2, result.rows / 2);
+    cv::Mat halved;
+    cv::resize(result(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), halved, half, 0, 0, cv::INTER_AREA);
+    result = halved;
+  }
+  return result;
+}
+
+cv::Mat toGrey(const cv::Mat& image)
+{
+  if (image.channels() == 1)
+  {
+    return image;
+  }
+  cv::Mat grey;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+int blurFor(const cv::Mat& image)
+{
+  constexpr float SLIGHT_NOISE = 1.0F;
+  constexpr float STRONG_NOISE = 2.0F;
+  const float noise = estimateNoise(image);
+  return noise < SLIGHT_NOISE ? 1 : noise < STRONG_NOISE ? 3 : 5;
+}
+
+cv::Mat blurred(const cv::Mat& image, int kernel_side)
+{
+  if (kernel_side <= 1)
+  {
+    return image;
+  }
+  cv::Mat result;  // must not share the pixels of the image, which may be the caller's
+  cv::GaussianBlur(image, result, cv::Size(kernel_side, kernel_side), 0.0);
   return result;
 }
 

@@ -31,8 +31,18 @@ float largestDisparity(const std::vector<Arm>& arms, float max_displacement_px);
 /// How often a view is halved before its longer side would be less than side_px.
 int halvingsFor(const cv::Size& size, int side_px);
 
-/// Half the size, each pixel the mean of four. An odd row or column at the end is left out.
-cv::Mat halve(const cv::Mat& image);
+/// Half the size so many times, each pixel the mean of four. An odd row or column at the end is left out.
+/// @return the image itself, sharing its pixels, for 0 times
+cv::Mat halve(const cv::Mat& image, int times);
+
+/// @return the image itself, sharing its pixels, if it is grey
+cv::Mat toGrey(const cv::Mat& image);
+
+/// Side of the Gaussian kernel that a noisy grey image needs before single pixels are compared; 1 for none.
+int blurFor(const cv::Mat& image);
+
+/// @return the image itself, sharing its pixels, for a kernel of 1
+cv::Mat blurred(const cv::Mat& image, int kernel_side);
 
 }  // namespace light_field_depth
 

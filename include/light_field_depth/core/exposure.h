@@ -32,7 +32,8 @@ struct ViewExposure
 ///
 /// @param light_field of 8-bit views; see toEightBit()
 /// @return one entry for each view. A view is left as it is (differs is false) where the change would be less
-///   than one could see or where too few points could be matched. Independent of the number of threads.
+///   than half a grey level, where the matched points do not clearly ask for it or are too few, and in light
+///   fields of less than 32 pixels in height or width. Independent of the number of threads.
 /// @throw InputError if the views do not have 8 bits
 std::vector<ViewExposure> estimateExposure(const LightField& light_field, ThreadPool& pool);
 
