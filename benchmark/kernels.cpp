@@ -11,6 +11,7 @@
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 #include "light_field_depth/core/multiview/path_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
+#include "light_field_depth/core/multiview/visibility_kernels.h"
 
 namespace light_field_depth::benchmark
 {
@@ -252,6 +253,40 @@ Kernel linearization()
           bytes_per_pixel * TILE_PIXELS, with(linearizeTile), with(linearizeTilePlain)};
 }
 
+Kernel warping()
+{
+  struct Map
+  {
+    std::vector<float> disparity = std::vector<float>(STRIDE);
+    std::vector<std::int32_t> targets = std::vector<std::int32_t>(STRIDE);
+    WarpRow row;
+
+    Map()
+    {
+      for (std::size_t x = 0; x < PIXELS; ++x)
+      {
+        disparity[x] = static_cast<float>(x % 100) / 100.0F;
+      }
+      row.disparity = disparity.data();
+      row.width = WIDTH;
+      row.height = WIDTH;
+      row.step_x = 2.0F;
+      row.base_x = 0.5F;
+      row.base_y = static_cast<float>(WIDTH) / 2.0F;
+      row.pitch = WIDTH;
+    }
+  };
+  const auto map = std::make_shared<Map>();
+  const auto with = [&](auto kernel)
+  { return calling(map, [kernel](Map& data) { kernel(data.row, data.targets.data()); }); };
+  return {"where a view sees the surface",
+          "pixel",
+          PIXELS,
+          PIXELS * (sizeof(float) + sizeof(std::int32_t)),
+          with(warpTargets),
+          with(warpTargetsPlain)};
+}
+
 Kernel halving()
 {
   struct Rows
@@ -277,8 +312,8 @@ Kernel halving()
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(), armCost(),        visibleCost(),   transposition(),
-          tilePaths(),     labelSelection(), linearization(), halving()};
+  return {interpolation(),  armCost(),       visibleCost(), transposition(), tilePaths(),
+          labelSelection(), linearization(), warping(),     halving()};
 }
 
 }  // namespace light_field_depth::benchmark
