@@ -1,5 +1,6 @@
 #include "light_field_depth/core/domain_transform.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -20,21 +21,40 @@ int colorDifference(const std::uint8_t* a, const std::uint8_t* b, int channels)
   return sum;
 }
 
-/// There and back along one row. The two recursions run side by side, which hides the latency of one behind
-/// the other.
-void filterRow(const std::vector<float>& feedback, int width, float* weighted, float* weight)
+/// Rows that are filtered at once: each step along a row waits for the one before it, so a processor that has
+/// several in hand waits less.
+constexpr int ROWS_AT_ONCE = 4;
+
+struct FilteredRow
+{
+  const float* feedback = nullptr;
+  float* weighted = nullptr;
+  float* weight = nullptr;
+};
+
+/// There and back along COUNT rows.
+template <std::size_t COUNT>
+void filterTogether(const std::array<FilteredRow, ROWS_AT_ONCE>& rows, int width)
 {
   for (int x = 1; x < width; ++x)
   {
-    const float a = feedback[static_cast<std::size_t>(x)];
-    weighted[x] += a * (weighted[x - 1] - weighted[x]);
-    weight[x] += a * (weight[x - 1] - weight[x]);
+    for (std::size_t r = 0; r < COUNT; ++r)
+    {
+      const FilteredRow& row = rows[r];
+      const float a = row.feedback[x];
+      row.weighted[x] += a * (row.weighted[x - 1] - row.weighted[x]);
+      row.weight[x] += a * (row.weight[x - 1] - row.weight[x]);
+    }
   }
   for (int x = width - 2; x >= 0; --x)
   {
-    const float a = feedback[static_cast<std::size_t>(x) + 1];
-    weighted[x] += a * (weighted[x + 1] - weighted[x]);
-    weight[x] += a * (weight[x + 1] - weight[x]);
+    for (std::size_t r = 0; r < COUNT; ++r)
+    {
+      const FilteredRow& row = rows[r];
+      const float a = row.feedback[x + 1];
+      row.weighted[x] += a * (row.weighted[x + 1] - row.weighted[x]);
+      row.weight[x] += a * (row.weight[x + 1] - row.weight[x]);
+    }
   }
 }
 
@@ -46,19 +66,40 @@ void mixRows(const float* feedback, int width, const float* from, float* into)
   }
 }
 
-void filterRows(const cv::Mat& guide, const FeedbackTable& table, WeightedValues& values)
+void rowFeedback(const cv::Mat& guide, const FeedbackTable& table, int y, float* feedback)
 {
   const int channels = guide.channels();
-  std::vector<float> feedback(static_cast<std::size_t>(guide.cols));
-  for (int y = 0; y < guide.rows; ++y)
+  const std::uint8_t* color = guide.ptr<std::uint8_t>(y);
+  for (int x = 1; x < guide.cols; ++x)
   {
-    const std::uint8_t* color = guide.ptr<std::uint8_t>(y);
-    for (int x = 1; x < guide.cols; ++x)
+    feedback[x] = table[colorDifference(color + x * channels, color + (x - 1) * channels, channels)];
+  }
+}
+
+void filterRows(const cv::Mat& guide, const FeedbackTable& table, WeightedValues& values)
+{
+  const auto width = static_cast<std::size_t>(guide.cols);
+  std::vector<float> feedback(ROWS_AT_ONCE * width);
+  std::array<FilteredRow, ROWS_AT_ONCE> rows;
+  const auto prepare = [&](int y, std::size_t slot)
+  {
+    float* const row = feedback.data() + slot * width;
+    rowFeedback(guide, table, y, row);
+    rows[slot] = {row, values.weighted.ptr<float>(y), values.weight.ptr<float>(y)};
+  };
+  int y = 0;
+  for (; y + ROWS_AT_ONCE <= guide.rows; y += ROWS_AT_ONCE)
+  {
+    for (int r = 0; r < ROWS_AT_ONCE; ++r)
     {
-      feedback[static_cast<std::size_t>(x)] =
-          table[colorDifference(color + x * channels, color + (x - 1) * channels, channels)];
+      prepare(y + r, static_cast<std::size_t>(r));
     }
-    filterRow(feedback, guide.cols, values.weighted.ptr<float>(y), values.weight.ptr<float>(y));
+    filterTogether<ROWS_AT_ONCE>(rows, guide.cols);
+  }
+  for (; y < guide.rows; ++y)
+  {
+    prepare(y, 0);
+    filterTogether<1>(rows, guide.cols);
   }
 }
 

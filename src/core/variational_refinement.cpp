@@ -85,6 +85,45 @@ cv::Vec2f sample(const cv::Mat& gradients, float x, float y)
   return (upper[0] * (1 - u) + upper[1] * u) * (1 - v) + (lower[0] * (1 - u) + lower[1] * u) * v;
 }
 
+/// The same for a view that stands in the row (column) of the reference, where two of the four weights are
+/// zero.
+cv::Vec2f sampleInRow(const cv::Mat& gradients, float x, int y)
+{
+  x = std::clamp(x, 0.0F, static_cast<float>(gradients.cols - 1));
+  const int left = std::min(static_cast<int>(x), gradients.cols - 2);
+  const float u = x - static_cast<float>(left);
+  const auto* const row = gradients.ptr<cv::Vec2f>(y) + left;
+  return row[0] * (1 - u) + row[1] * u;
+}
+
+cv::Vec2f sampleInColumn(const cv::Mat& gradients, int x, float y)
+{
+  y = std::clamp(y, 0.0F, static_cast<float>(gradients.rows - 1));
+  const int top = std::min(static_cast<int>(y), gradients.rows - 2);
+  const float v = y - static_cast<float>(top);
+  return gradients.ptr<cv::Vec2f>(top)[x] * (1 - v) + gradients.ptr<cv::Vec2f>(top + 1)[x] * v;
+}
+
+/// What a view sees at the pixel (x, y) of the reference.
+cv::Vec2f sampleView(const View& view, const cv::Mat& gradients, int x, int y, float disparity)
+{
+  const auto steps_x = static_cast<float>(view.steps.x);
+  const auto steps_y = static_cast<float>(view.steps.y);
+  const auto offset_x = static_cast<float>(view.offset_px.x);
+  const auto offset_y = static_cast<float>(view.offset_px.y);
+  const float at_x = static_cast<float>(x) - disparity * steps_x + offset_x;
+  const float at_y = static_cast<float>(y) - disparity * steps_y + offset_y;
+  if (steps_y == 0.0F && offset_y == 0.0F)
+  {
+    return sampleInRow(gradients, at_x, y);
+  }
+  if (steps_x == 0.0F && offset_x == 0.0F)
+  {
+    return sampleInColumn(gradients, x, at_y);
+  }
+  return sample(gradients, at_x, at_y);
+}
+
 /// The problem of one light field.
 class Refinement
 {
@@ -159,9 +198,7 @@ void Refinement::addData(const cv::Mat& disparity, GridSystem& system, int first
       for (std::size_t k = 0; k < views_.size(); ++k)
       {
         const cv::Vec2f steps(static_cast<float>(views_[k].steps.x), static_cast<float>(views_[k].steps.y));
-        const cv::Vec2f warped = sample(
-            gradients_[k], static_cast<float>(x) - d * steps[0] + static_cast<float>(views_[k].offset_px.x),
-            static_cast<float>(y) - d * steps[1] + static_cast<float>(views_[k].offset_px.y));
+        const cv::Vec2f warped = sampleView(views_[k], gradients_[k], x, y, d);
         const cv::Vec2f residual = warped - own;
         const float slope_x = -of_x.dot(steps);
         const float slope_y = -of_y.dot(steps);
