@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# What the nodelet holds: the bundled light field, as a bag with 100 frames at a given rate, played to it once for each set
+# of results that somebody may listen to. Called by ./run bench --node, which has built the package and sourced its setup
+# file.
+#   TOOLS   folder of the package's programs        RESULTS  folder for node.md and the JSON files
+# Arguments: --rate HZ (10), --frames N (100), --set NAME=VALUE of the node's parameters (any number).
+set -euo pipefail
+
+TOP=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+RATE=10
+FRAMES=100
+SETTINGS=()
+VOXEL_SIZE=0.0
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --rate) RATE=$2 ;;
+    --frames) FRAMES=$2 ;;
+    --set) SETTINGS+=("$2") ;;
+    *) echo "bench --node: there is no argument '$1'; --rate, --frames and --set are there." >&2 && exit 2 ;;
+  esac
+  shift 2
+done
+
+PIDS=()
+cleanup()
+{
+  trap - EXIT
+  local pid
+  for pid in "${PIDS[@]}"; do
+    kill -INT "$pid" 2>/dev/null || true
+  done
+  for pid in "${PIDS[@]}"; do
+    timeout 15 tail --pid="$pid" -f /dev/null || kill -KILL "$pid" 2>/dev/null || true
+  done
+  rm -rf "$SCRATCH"
+}
+SCRATCH=$(mktemp -d)
+trap cleanup EXIT
+trap 'exit 130' INT TERM
+export ROS_HOME=$SCRATCH/ros ROS_LOG_DIR=$SCRATCH/log
+PORT=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
+export ROS_MASTER_URI=http://localhost:$PORT
+
+say()
+{
+  echo "[bench --node] $*" >&2
+}
+
+wait_until()
+{
+  local deadline=$((SECONDS + $1))
+  shift
+  until "$@"; do
+    [ $SECONDS -lt $deadline ] || { say "'$*' has not come about in time."; exit 1; }
+    sleep 0.2
+  done
+}
+
+# fail SENTENCE: with what the programs said last.
+fail()
+{
+  tail -n 20 "$SCRATCH"/{node,play}.log >&2
+  say "$1"
+  exit 1
+}
+
+master_answers()
+{
+  (exec 3<>"/dev/tcp/localhost/$PORT") 2>/dev/null
+}
+
+# measure LABEL FILE PRODUCT...: one row of the table.
+measure()
+{
+  local label=$1 file=$2
+  shift 2
+  local setting launch report
+  for setting in "${SETTINGS[@]}"; do
+    rosparam set "/light_field_depth/${setting%%=*}" "${setting#*=}"
+  done
+  roslaunch light_field_depth depth.launch voxel_size:="$VOXEL_SIZE" >"$SCRATCH/node.log" 2>&1 &
+  launch=$!
+  PIDS+=("$launch")
+  "$TOOLS/stats_report" --label "$label" --output "$RESULTS/$file.json" --products "$@" >>"$SCRATCH/table.md" &
+  report=$!
+  PIDS+=("$report")
+  # The node subscribes to the images once somebody listens to its stats.
+  timeout $((FRAMES / RATE + 60)) rosbag play --quiet --wait-for-subscribers "$SCRATCH/light_field.bag" \
+    >"$SCRATCH/play.log" 2>&1 || fail "The bag could not be played."
+  wait "$report" || fail "The node gave no stats."
+  kill -INT "$launch"
+  wait "$launch" || true
+  tail -n 1 "$SCRATCH/table.md" >&2
+}
+
+mkdir -p "$RESULTS" "$ROS_HOME" "$ROS_LOG_DIR"
+say "writing a bag of $FRAMES frames at $RATE Hz"
+"$TOOLS/dataset_to_bag" --input "$TOP/data/demo" --output "$SCRATCH/light_field.bag" --count "$FRAMES" --rate "$RATE" >&2
+roscore -p "$PORT" >"$SCRATCH/master.log" 2>&1 &
+PIDS+=($!)
+wait_until 30 master_answers
+
+cat >"$SCRATCH/table.md" <<TEXT
+| listened to, besides the stats | sets | dropped | rate, Hz | latency, median ms | 99th percentile | longest | conversion, mean ms | pipeline, mean ms | publication, mean ms |
+|---|---|---|---|---|---|---|---|---|---|
+TEXT
+measure "disparity" node_disparity disparity
+measure "disparity, points2" node_points2 disparity points2
+measure "disparity, points2, points_dense" node_points_dense disparity points2 points_dense
+VOXEL_SIZE=0.01
+measure "the same, voxels of 1 cm" node_voxels disparity points2 points_dense
+mv "$SCRATCH/table.md" "$RESULTS/node.md"
+cat "$RESULTS/node.md"
