@@ -76,13 +76,25 @@ VoxelTable& tableOfThisThread()
 
 VoxelTable::VoxelTable() : slots_(LEAST_SLOTS, NONE) {}
 
-void VoxelTable::clear()
+inline void VoxelTable::clear()
 {
   std::fill(slots_.begin(), slots_.end(), NONE);
   sums_.clear();
 }
 
-VoxelSum& VoxelTable::at(const VoxelKey& key)
+/// Where the key is, or the free slot where it belongs.
+inline std::size_t VoxelTable::find(const VoxelKey& key) const
+{
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hashOf(key) & mask;
+  while (slots_[slot] != NONE && !(sums_[slots_[slot]].key == key))
+  {
+    slot = (slot + 1) & mask;
+  }
+  return slot;
+}
+
+inline VoxelSum& VoxelTable::at(const VoxelKey& key)
 {
   std::size_t slot = find(key);
   if (slots_[slot] == NONE)
@@ -96,18 +108,6 @@ VoxelSum& VoxelTable::at(const VoxelKey& key)
     sums_.push_back({key, 0, 0.0, 0.0, 0.0, 0, 0, 0});
   }
   return sums_[slots_[slot]];
-}
-
-/// Where the key is, or the free slot where it belongs.
-std::size_t VoxelTable::find(const VoxelKey& key) const
-{
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hashOf(key) & mask;
-  while (slots_[slot] != NONE && !(sums_[slots_[slot]].key == key))
-  {
-    slot = (slot + 1) & mask;
-  }
-  return slot;
 }
 
 void VoxelTable::grow()
@@ -131,15 +131,11 @@ VoxelMerger::Table::Table(VoxelMerger& merger) : merger_(merger), voxels_(tableO
 
 void VoxelMerger::Table::add(const ColoredPoint* begin, const ColoredPoint* end)
 {
-  VoxelSum* sum = nullptr;
   for (const ColoredPoint* point = begin; point != end; ++point)
   {
     const VoxelKey key = keyOf(*point, merger_.voxels_per_metre_);
-    if (sum == nullptr || !(key == sum->key))
-    {
-      sum = &voxels_.at(key);
-    }
-    light_field_depth::add({key, 1, point->x, point->y, point->z, point->b, point->g, point->r}, *sum);
+    light_field_depth::add({key, 1, point->x, point->y, point->z, point->b, point->g, point->r},
+                           voxels_.at(key));
   }
 }
 
