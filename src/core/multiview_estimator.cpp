@@ -13,12 +13,14 @@
 #include "light_field_depth/core/disparity_range.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/exposure.h"
+#include "light_field_depth/core/multiview/even_exposure.h"
 #include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/noise.h"
 #include "light_field_depth/core/multiview/sequence.h"
 #include "light_field_depth/core/multiview/solver.h"
 #include "light_field_depth/core/multiview/upsampling.h"
 #include "light_field_depth/core/multiview/view_maps.h"
+#include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/noise_estimate.h"
 #include "light_field_depth/core/options_visitor.h"
 
@@ -36,6 +38,9 @@ constexpr int FEW_VIEWS = 6;
 
 /// Smaller views are not halved.
 constexpr int LEAST_HALVED_SIDE_PX = 32;
+/// Of half the resolution: smaller views are not halved again to measure the scene.
+constexpr int LEAST_QUARTERED_SIDE_PX = 96;
+constexpr int FAST_VIEWS_PER_ARM = 3;
 
 constexpr std::array<std::pair<MultiviewPreset, const char*>, 4> PRESET_NAMES = {{
     {MultiviewPreset::Quality, "quality"},
@@ -215,6 +220,7 @@ struct MultiviewEstimator::Buffers
   multiview::Sequence sequence;
   multiview::Solver solver;
   multiview::HalfResolution half;
+  multiview::HalfResolution quarter;
   std::vector<ViewDisparity> view_maps;
 };
 
@@ -234,14 +240,16 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   DisparityEstimate estimate;
   if (halved)
   {
-    solve(reduced(chosen, context), request, context, estimate);
+    const LightField half = reduced(chosen, context);
+    solve(half, request, context, estimate);
+    estimate.views_used = half.views.size();
     upsample(chosen.reference().image, context, estimate);
   }
   else
   {
     solve(chosen, request, context, estimate);
+    estimate.views_used = chosen.views.size();
   }
-  estimate.views_used = chosen.views.size();
   if (request.view_disparities)
   {
     const StageTimer timer(context, "view maps");
@@ -252,10 +260,10 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   return estimate;
 }
 
-const LightField& MultiviewEstimator::reduced(const LightField& chosen, RunContext& context)
+LightField MultiviewEstimator::reduced(const LightField& chosen, RunContext& context)
 {
   const StageTimer timer(context, "halve");
-  return buffers_->half.reduce(chosen, context.pool);
+  return buffers_->half.reduce(multiview::withThinnedArms(chosen, FAST_VIEWS_PER_ARM), context.pool);
 }
 
 void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& request, RunContext& context,
@@ -266,6 +274,24 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
     return;
   }
   SceneMeasures measures;
+  const LightField chosen = options_.preset == MultiviewPreset::Fast
+                                ? measureQuickly(views, request, context, measures)
+                                : measure(views, request, context, measures);
+  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
+  buffers_->solver.run(scaledSteps(chosen, unit), solverSettings(withPresetNumbers(options_), measures, unit),
+                       context);
+  estimate.range = measures.range;
+  keepResult(unit, estimate);
+  if (options_.temporal)
+  {
+    buffers_->sequence.begin(std::move(measures));
+  }
+}
+
+/// @return the views, made equal in exposure
+LightField MultiviewEstimator::measure(const LightField& views, const EstimateRequest& request,
+                                       RunContext& context, SceneMeasures& measures)
+{
   LightField chosen;
   {
     const StageTimer timer(context, "exposure");
@@ -277,19 +303,44 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
     measures.range =
         request.disparity_range ? *request.disparity_range : findDisparityRange(chosen, context.pool);
   }
+  const StageTimer timer(context, "noise");
+  measures.noise_sigma = estimateNoise(chosen.reference().image);
+  return chosen;
+}
+
+/// The same from views of a quarter of the resolution, and without a search for small differences in
+/// exposure.
+/// @param views of half the resolution
+LightField MultiviewEstimator::measureQuickly(const LightField& views, const EstimateRequest& request,
+                                              RunContext& context, SceneMeasures& measures)
+{
+  const cv::Size size = views.size();
+  if (std::min(size.width, size.height) < LEAST_QUARTERED_SIDE_PX)
   {
-    const StageTimer timer(context, "noise");
-    measures.noise_sigma = estimateNoise(chosen.reference().image);
+    return measure(views, request, context, measures);
   }
-  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
-  buffers_->solver.run(scaledSteps(chosen, unit), solverSettings(withPresetNumbers(options_), measures, unit),
-                       context);
-  estimate.range = measures.range;
-  keepResult(unit, estimate);
-  if (options_.temporal)
+  LightField chosen = views;
+  measures.exposures.resize(views.views.size());
   {
-    buffers_->sequence.begin(std::move(measures));
+    const StageTimer timer(context, "exposure");
+    if (!multiview::looksEvenlyExposed(buffers_->quarter.reduce(views, context.pool)))
+    {
+      measures.exposures = estimateExposure(views, context.pool);
+      chosen = compensateExposure(views, measures.exposures, context.pool);
+    }
   }
+  {
+    const StageTimer timer(context, "range");
+    DisparityRangeOptions range_options;
+    range_options.max_displacement_px *= 0.25F;
+    measures.range =
+        request.disparity_range
+            ? *request.disparity_range
+            : findDisparityRange(buffers_->quarter.reduce(chosen, context.pool), context.pool, range_options);
+  }
+  const StageTimer timer(context, "noise");
+  measures.noise_sigma = estimateNoise(chosen.reference().image);
+  return chosen;
 }
 
 /// The frame with what was measured on the last one that was searched in full.

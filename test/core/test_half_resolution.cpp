@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "light_field_depth/core/multiview/even_exposure.h"
 #include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/upsampling.h"
+#include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview_estimator.h"
 #include "support/synthetic_scene.h"
 
@@ -155,6 +157,51 @@ TEST(FastPreset, TakesTheSmallestViews)
     EXPECT_EQ(result.disparity.size(), settings.size);
     EXPECT_TRUE(cv::checkRange(result.disparity));
   }
+}
+
+TEST(FastPreset, MakesUpForExposureThatDiffers)
+{
+  testing::SceneSettings settings;
+  settings.positions = testing::crossPositions(5, 5);
+  settings.size = {256, 192};
+  const auto even = testing::renderScene(testing::standardScene(settings.size), settings);
+  settings.degrade = [](const GridPosition& position, cv::Mat& values)
+  { values *= 1.0 + 0.04 * (position.column - 2); };
+  const auto uneven = testing::renderScene(testing::standardScene(settings.size), settings);
+  const double bad_even =
+      testing::badPercentage(estimateFast(even.light_field, 2).disparity, even.truth, 0.2);
+  const double bad_uneven =
+      testing::badPercentage(estimateFast(uneven.light_field, 2).disparity, uneven.truth, 0.2);
+  EXPECT_LT(bad_uneven, 1.5 * bad_even + 1.0);
+}
+
+TEST(EvenExposure, IsAMeanBrightnessAndWhatParallaxAdds)
+{
+  testing::SceneSettings settings;
+  settings.grey = true;
+  settings.positions = testing::crossPositions(5, 5);
+  auto input = testing::renderScene(testing::standardScene(settings.size), settings);
+  EXPECT_TRUE(looksEvenlyExposed(input.light_field));
+  cv::Mat& image = input.light_field.views.front().image;
+  image.convertTo(image, -1, 1.05, 0.0);
+  EXPECT_FALSE(looksEvenlyExposed(input.light_field));
+}
+
+TEST(ThinnedArms, KeepTheNearestTheFarthestAndTheReference)
+{
+  testing::SceneSettings settings;
+  settings.size = {32, 32};
+  settings.positions = testing::crossPositions(9, 9);
+  const auto input = testing::renderScene(testing::standardScene(settings.size), settings);
+  const LightField thinned = withThinnedArms(input.light_field, 2);
+  ASSERT_EQ(thinned.views.size(), 9U);
+  EXPECT_EQ(thinned.reference().grid, (GridPosition{4, 4}));
+  std::vector<int> rows;
+  for (const View& view : thinned.views)
+  {
+    rows.push_back(view.grid.row);
+  }
+  EXPECT_EQ(rows, (std::vector<int>{0, 3, 4, 4, 4, 4, 4, 5, 8}));
 }
 
 }  // namespace

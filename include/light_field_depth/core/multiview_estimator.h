@@ -9,13 +9,18 @@
 
 namespace light_field_depth
 {
+namespace multiview
+{
+struct SceneMeasures;
+}
+
 /// How much time to spend.
 enum class MultiviewPreset
 {
   Quality,   ///< colour everywhere, finer labels, occlusions found twice, three refinements
   Balanced,  ///< colour everywhere, two refinements
   Realtime,  ///< brightness alone but at edges, one refinement
-  Fast       ///< as Realtime at half the resolution, brought to the full one along the edges of the image
+  Fast       ///< half the resolution and fewer views, brought to the full one along the edges of the image
 };
 
 /// "quality", "balanced", "realtime", "fast".
@@ -84,9 +89,13 @@ public:
 
 private:
   struct Buffers;
-  const LightField& reduced(const LightField& chosen, RunContext& context);
+  LightField reduced(const LightField& chosen, RunContext& context);
   void solve(const LightField& views, const EstimateRequest& request, RunContext& context,
              DisparityEstimate& estimate);
+  LightField measure(const LightField& views, const EstimateRequest& request, RunContext& context,
+                     multiview::SceneMeasures& measures);
+  LightField measureQuickly(const LightField& views, const EstimateRequest& request, RunContext& context,
+                            multiview::SceneMeasures& measures);
   bool follow(const LightField& views, const EstimateRequest& request, RunContext& context,
               DisparityEstimate& estimate);
   void keepResult(double unit, DisparityEstimate& estimate) const;

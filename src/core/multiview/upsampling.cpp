@@ -12,7 +12,7 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int ROWS_PER_CHUNK = 32;  // of the full resolution; even
-constexpr int EDGE_RADIUS = 2;      // reduced pixels that vote at an edge
+constexpr int EDGE_RADIUS = 1;      // reduced pixels that vote at an edge
 constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
 
 /// The full resolution from the reduced one, row by row.

@@ -187,6 +187,27 @@ void prepareViews(const LightField& light_field, const ViewSetSettings& settings
                    });
 }
 
+LightField withThinnedArms(const LightField& light_field, int max_views_per_arm)
+{
+  std::vector<std::size_t> kept = {light_field.reference_index};
+  for (const auto& arm : viewsByDirection(light_field, max_views_per_arm))
+  {
+    kept.insert(kept.end(), arm.begin(), arm.end());
+  }
+  std::sort(kept.begin(), kept.end());
+  LightField thinned;
+  thinned.calibration = light_field.calibration;
+  for (const std::size_t index : kept)
+  {
+    if (index == light_field.reference_index)
+    {
+      thinned.reference_index = thinned.views.size();
+    }
+    thinned.views.push_back(light_field.views[index]);
+  }
+  return thinned;
+}
+
 void preparePlanar(const cv::Mat& image, const ViewSetSettings& settings, int pad, PlanarImage& planar)
 {
   toPlanar(preparedImage(image, settings), pad, planar);

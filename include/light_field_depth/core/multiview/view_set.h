@@ -91,6 +91,10 @@ struct ViewSet
 void prepareViews(const LightField& light_field, const ViewSetSettings& settings, ThreadPool& pool,
                   ViewSet& view_set);
 
+/// The light field with the reference and at most so many views of each arm, the nearest and the farthest
+/// among them.
+LightField withThinnedArms(const LightField& light_field, int max_views_per_arm);
+
 /// One image as prepareViews() would prepare it.
 void preparePlanar(const cv::Mat& image, const ViewSetSettings& settings, int pad, PlanarImage& planar);
 
