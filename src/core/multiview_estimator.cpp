@@ -354,18 +354,23 @@ bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& 
   {
     return false;
   }
+  SceneMeasures here = *measures;
   LightField chosen;
   {
     const StageTimer timer(context, "exposure");
-    chosen = compensateExposure(views, measures->exposures, context.pool);
+    chosen = compensateExposure(views, here.exposures, context.pool);
+  }
+  {
+    const StageTimer timer(context, "noise");
+    here.noise_sigma = estimateNoise(chosen.reference().image);
   }
   const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
   if (!buffers_->solver.follow(scaledSteps(chosen, unit),
-                               solverSettings(withPresetNumbers(options_), *measures, unit), context))
+                               solverSettings(withPresetNumbers(options_), here, unit), context))
   {
     return false;
   }
-  estimate.range = measures->range;
+  estimate.range = here.range;
   keepResult(unit, estimate);
   buffers_->sequence.keep();
   return true;

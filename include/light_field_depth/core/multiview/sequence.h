@@ -9,7 +9,8 @@
 
 namespace light_field_depth::multiview
 {
-/// What was measured on a frame that was searched in full, and holds for the frames that follow it.
+/// What was measured on a frame that was searched in full. Range and exposures hold for the frames that
+/// follow it; the noise is measured in each.
 struct SceneMeasures
 {
   std::vector<ViewExposure> exposures;  ///< one for each view
