@@ -58,7 +58,8 @@ double sizeMb(const LightField& light_field)
 double peakOf(const Load& load, const LightField& light_field, int threads)
 {
   PipelineOptions options = optionsOf(load.variant);
-  const float half_width = 0.5F * static_cast<float>(load.labels - 1) * options.multiview.label_step_px;
+  const float half_width =
+      0.5F * static_cast<float>(load.labels - 1) * withPresetNumbers(options.multiview).label_step_px;
   options.disparity_range = DisparityRange{-half_width, half_width};
   resetPeak();
   Pipeline pipeline(threads);

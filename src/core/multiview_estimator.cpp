@@ -1,7 +1,6 @@
 #include "light_field_depth/core/multiview_estimator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -11,7 +10,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/disparity_range.h"
-#include "light_field_depth/core/error.h"
 #include "light_field_depth/core/exposure.h"
 #include "light_field_depth/core/multiview/even_exposure.h"
 #include "light_field_depth/core/multiview/half_resolution.h"
@@ -33,6 +31,8 @@ using multiview::SolverSettings;
 
 /// The settings are meant for this distance of the outermost view, in grid steps.
 constexpr double REFERENCE_BASELINE = 4.0;
+/// Above this many pixels the search goes from coarse to fine.
+constexpr int LARGE_PIXELS = 1'000'000;
 /// With at most this many views in the row and column of the reference, all views are used.
 constexpr int FEW_VIEWS = 6;
 
@@ -42,12 +42,10 @@ constexpr int LEAST_HALVED_SIDE_PX = 32;
 constexpr int LEAST_QUARTERED_SIDE_PX = 96;
 constexpr int FAST_VIEWS_PER_ARM = 3;
 
-constexpr std::array<std::pair<MultiviewPreset, const char*>, 4> PRESET_NAMES = {{
-    {MultiviewPreset::Quality, "quality"},
-    {MultiviewPreset::Balanced, "balanced"},
-    {MultiviewPreset::Realtime, "realtime"},
-    {MultiviewPreset::Fast, "fast"},
-}};
+bool isLarge(const LightField& light_field)
+{
+  return light_field.size().area() > LARGE_PIXELS;
+}
 
 LightField chosenViews(const LightField& light_field, ViewSelection selection)
 {
@@ -80,35 +78,6 @@ LightField scaledSteps(LightField light_field, double scale)
     view.steps *= 1.0 / scale;
   }
   return light_field;
-}
-
-/// What a preset decides where the options leave it to it.
-struct PresetNumbers
-{
-  float label_step_px = 0.125F;
-  int visibility_passes = 1;
-  int refinements = 2;
-};
-
-PresetNumbers numbersOf(MultiviewPreset preset)
-{
-  switch (preset)
-  {
-    case MultiviewPreset::Quality:
-      return {0.0625F, 2, 3};
-    case MultiviewPreset::Realtime:
-    case MultiviewPreset::Fast:
-      return {0.125F, 1, 1};
-    case MultiviewPreset::Balanced:
-      break;
-  }
-  return {};
-}
-
-template <typename Number>
-Number chosenNumber(Number option, Number preset)
-{
-  return option == static_cast<Number>(MultiviewOptions::PRESET_NUMBER) ? preset : option;
 }
 
 /// Text that differs whenever a setting does.
@@ -160,60 +129,6 @@ SolverSettings solverSettings(const MultiviewOptions& options, const SceneMeasur
 
 }  // namespace
 
-std::string toString(MultiviewPreset preset)
-{
-  const auto* const found = std::find_if(PRESET_NAMES.begin(), PRESET_NAMES.end(),
-                                         [&](const auto& entry) { return entry.first == preset; });
-  return found->second;
-}
-
-MultiviewPreset multiviewPresetFromString(const std::string& name)
-{
-  const auto* const found = std::find_if(PRESET_NAMES.begin(), PRESET_NAMES.end(),
-                                         [&](const auto& entry) { return name == entry.second; });
-  if (found == PRESET_NAMES.end())
-  {
-    throw InputError("There is no preset '" + name + "'; choose quality, balanced, realtime or fast.");
-  }
-  return found->first;
-}
-
-MultiviewOptions withPresetNumbers(MultiviewOptions options)
-{
-  const PresetNumbers preset = numbersOf(options.preset);
-  options.label_step_px = chosenNumber(options.label_step_px, preset.label_step_px);
-  options.visibility_passes = chosenNumber(options.visibility_passes, preset.visibility_passes);
-  options.refinements = chosenNumber(options.refinements, preset.refinements);
-  return options;
-}
-
-std::vector<std::string> validate(const MultiviewOptions& given)
-{
-  const MultiviewOptions options = withPresetNumbers(given);
-  std::vector<std::string> problems;
-  const auto require = [&](bool good, const std::string& field, double value, const std::string& limits)
-  {
-    if (!good)
-    {
-      problems.push_back("multiview." + field + " is " + std::to_string(value) + "; it must be " + limits +
-                         ".");
-    }
-  };
-  require(options.label_step_px >= 0.03125F && options.label_step_px <= 1.0F, "label_step_px",
-          options.label_step_px, "between 1/32 and 1 px, or -1 for the preset's number");
-  require(options.small_change_penalty >= 1 && options.small_change_penalty <= 1000, "small_change_penalty",
-          options.small_change_penalty, "between 1 and 1000");
-  require(options.large_change_penalty >= 1 && options.large_change_penalty <= 10000, "large_change_penalty",
-          options.large_change_penalty, "between 1 and 10000");
-  require(options.visibility_passes >= 0 && options.visibility_passes <= 5, "visibility_passes",
-          options.visibility_passes, "between 0 and 5, or -1 for the preset's number");
-  require(options.refinements >= 0 && options.refinements <= 10, "refinements", options.refinements,
-          "between 0 and 10, or -1 for the preset's number");
-  require(options.refinement_smoothness > 0.0F && options.refinement_smoothness <= 1e6F,
-          "refinement_smoothness", options.refinement_smoothness, "positive and at most 1000000");
-  return problems;
-}
-
 /// What is kept from frame to frame.
 struct MultiviewEstimator::Buffers
 {
@@ -221,6 +136,8 @@ struct MultiviewEstimator::Buffers
   multiview::Solver solver;
   multiview::HalfResolution half;
   multiview::HalfResolution quarter;
+  multiview::HalfResolution coarse_half;
+  multiview::Solver coarse_solver;
   std::vector<ViewDisparity> view_maps;
 };
 
@@ -278,11 +195,19 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
                                 ? measureQuickly(views, request, context, measures)
                                 : measure(views, request, context, measures);
   const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
-  buffers_->solver.run(scaledSteps(chosen, unit), solverSettings(withPresetNumbers(options_), measures, unit),
-                       context);
+  const bool large = isLarge(chosen);
+  if (large)
+  {
+    solveCoarseToFine(chosen, measures, context);
+  }
+  else
+  {
+    const SolverSettings settings = solverSettings(withPresetNumbers(options_), measures, unit);
+    buffers_->solver.run(scaledSteps(chosen, unit), settings, context);
+  }
   estimate.range = measures.range;
   keepResult(unit, estimate);
-  if (options_.temporal)
+  if (options_.temporal && !large)
   {
     buffers_->sequence.begin(std::move(measures));
   }
@@ -341,6 +266,28 @@ LightField MultiviewEstimator::measureQuickly(const LightField& views, const Est
   const StageTimer timer(context, "noise");
   measures.noise_sigma = estimateNoise(chosen.reference().image);
   return chosen;
+}
+
+/// All labels at half the resolution, and those about the result at the full one: the memory of a large light
+/// field does not grow with its labels.
+void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const SceneMeasures& measures,
+                                           RunContext& context)
+{
+  MultiviewOptions coarse_options = withPresetNumbers(options_);
+  coarse_options.refinements = std::min(coarse_options.refinements, 1);
+  coarse_options.temporal = false;
+  const LightField half = buffers_->coarse_half.reduce(chosen, context.pool);
+  const double half_unit = widestBaseline(half) / REFERENCE_BASELINE;
+  buffers_->coarse_solver.run(scaledSteps(half, half_unit),
+                              solverSettings(coarse_options, measures, half_unit), context);
+  DisparityEstimate coarse;
+  buffers_->coarse_solver.disparity().convertTo(coarse.disparity, CV_32F, 1.0 / half_unit);
+  coarse.confidence = buffers_->coarse_solver.confidence();
+  upsample(chosen.reference().image, context, coarse);
+  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
+  SolverSettings settings = solverSettings(withPresetNumbers(options_), measures, unit);
+  settings.watch_scene = false;
+  buffers_->solver.runNear(scaledSteps(chosen, unit), settings, coarse.disparity * unit, context);
 }
 
 /// The frame with what was measured on the last one that was searched in full.

@@ -25,7 +25,7 @@ protected:
   {
     LabelBands bands;
     bands.setAll(WIDTH, HEIGHT, LABELS);
-    volume_.create(WIDTH, HEIGHT, bands);
+    volume_.create(WIDTH, HEIGHT, bands, CostVolume::Room::Band);
     cv::Mat image(HEIGHT, WIDTH, CV_8UC1, cv::Scalar(90));
     preparePlanar(image, {}, 4, guide_);
     first_search_ = cv::Mat(HEIGHT, WIDTH, CV_32FC1, cv::Scalar(labels_.disparity(BACKGROUND)));

@@ -277,5 +277,33 @@ TEST(MultiviewEstimator, NamesOptionsThatCannotBeUsed)
   EXPECT_EQ(multiviewPresetFromString(toString(MultiviewPreset::Quality)), MultiviewPreset::Quality);
 }
 
+TEST(MultiviewEstimator, ALargeLightFieldIsSolvedCoarseToFine)
+{
+  testing::SceneSettings settings;
+  settings.size = {1040, 1000};
+  settings.positions = testing::crossPositions(5, 5);
+  settings.samples = 1;
+  const auto scene = testing::renderScene(
+      {testing::plane(-0.8, 0.0004, -0.0003, testing::noiseTexture(4, 16.0)),
+       testing::rectangle(1.9, {400.0, 380.0, 300.0, 250.0}, testing::noiseTexture(9, 12.0))},
+      settings);
+  DisparityEstimate first;
+  for (const int threads : {1, 2})
+  {
+    ThreadPool pool(threads);
+    RunContext context(pool);
+    MultiviewEstimator estimator;
+    const DisparityEstimate estimate = estimator.estimate(scene.light_field, {}, context);
+    EXPECT_LT(testing::meanAbsoluteError(estimate.disparity, scene.truth), 0.02);
+    if (first.disparity.empty())
+    {
+      first = estimate;
+      continue;
+    }
+    EXPECT_EQ(cv::norm(first.disparity, estimate.disparity, cv::NORM_INF), 0.0);
+    EXPECT_EQ(cv::norm(first.confidence, estimate.confidence, cv::NORM_INF), 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace light_field_depth

@@ -12,7 +12,7 @@ namespace light_field_depth
 namespace multiview
 {
 struct SceneMeasures;
-}
+}  // namespace multiview
 
 /// How much time to spend.
 enum class MultiviewPreset
@@ -98,6 +98,8 @@ private:
                             multiview::SceneMeasures& measures);
   bool follow(const LightField& views, const EstimateRequest& request, RunContext& context,
               DisparityEstimate& estimate);
+  void solveCoarseToFine(const LightField& chosen, const multiview::SceneMeasures& measures,
+                         RunContext& context);
   void keepResult(double unit, DisparityEstimate& estimate) const;
   void upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate);
 

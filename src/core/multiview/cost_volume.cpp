@@ -39,12 +39,31 @@ std::vector<std::uint16_t> armScales(const ViewSet& views, int truncation)
 
 }  // namespace
 
-void CostVolume::create(int new_width, int new_height, const LabelBands& new_bands)
+void CostVolume::create(int new_width, int new_height, const LabelBands& new_bands, Room room)
 {
   width = new_width;
   height = new_height;
   bands = new_bands;
+  offsets.assign(1, 0);
+  for (int row = 0; row < bands.rows(); ++row)
+  {
+    for (int column = 0; column < bands.columns(); ++column)
+    {
+      const int labels = room == Room::AllLabels ? bands.labels() : bands.at(row, column).count;
+      offsets.push_back(offsets.back() + static_cast<std::size_t>(labels) * TILE_PX * TILE_PX);
+    }
+  }
   values.resize(size());
+}
+
+std::size_t CostVolume::largestRow() const
+{
+  std::size_t largest = 0;
+  for (int row = 0; row < bands.rows(); ++row)
+  {
+    largest = std::max(largest, tileOffset(row, bands.columns()) - tileOffset(row, 0));
+  }
+  return largest;
 }
 
 /// Memory of one chunk of rows at work.
@@ -96,7 +115,7 @@ void CostVolumeBuilder::giveBack(std::unique_ptr<Scratch> scratch)
 void CostVolumeBuilder::buildFromArms(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
                                       const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
-  volume.create(views.width(), views.height(), bands);
+  volume.create(views.width(), views.height(), bands, CostVolume::Room::Band);
   build({views, labels, settings}, pool, volume);
 }
 
@@ -104,7 +123,7 @@ void CostVolumeBuilder::buildAndWatch(const ViewSet& views, const LabelSpace& la
                                       const CostSettings& settings, const WatchSettings& watch_settings,
                                       ThreadPool& pool, CostVolume& volume, SceneWatch& watch)
 {
-  volume.create(views.width(), views.height(), bands);
+  volume.create(views.width(), views.height(), bands, CostVolume::Room::AllLabels);
   watch.begin(bands);
   Task task{views, labels, settings};
   task.watch_settings = &watch_settings;
@@ -126,7 +145,7 @@ void CostVolumeBuilder::buildFromVisible(const ViewSet& views, const LabelSpace&
                                          const LabelBands& bands, const VisibleSurfaces& surfaces,
                                          const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
-  volume.create(views.width(), views.height(), bands);
+  volume.create(views.width(), views.height(), bands, CostVolume::Room::Band);
   Task task{views, labels, settings};
   task.surfaces = &surfaces;
   build(task, pool, volume);

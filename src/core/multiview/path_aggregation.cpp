@@ -154,7 +154,7 @@ public:
         p1_(static_cast<std::uint16_t>(settings.small_step))
   {
     const auto columns = static_cast<std::size_t>(volume.bands.columns());
-    const std::size_t values = volume.tileOffset(0, volume.bands.columns());
+    const std::size_t values = volume.largestRow();
     scratch.cost.resize(values);
     scratch.sums.resize(values);
     scratch.steps.resize((columns + 1) * TILE_PX * TILE_PX);
@@ -184,8 +184,12 @@ public:
   }
 
 private:
-  std::uint8_t* cost(int column) const { return scratch_.cost.data() + volume_.tileOffset(0, column); }
-  std::uint16_t* sums(int column) const { return scratch_.sums.data() + volume_.tileOffset(0, column); }
+  std::size_t offset(int column) const
+  {
+    return volume_.tileOffset(row_, column) - volume_.tileOffset(row_, 0);
+  }
+  std::uint8_t* cost(int column) const { return scratch_.cost.data() + offset(column); }
+  std::uint16_t* sums(int column) const { return scratch_.sums.data() + offset(column); }
 
   void transposeSteps(std::size_t column) const
   {

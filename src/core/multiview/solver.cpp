@@ -57,6 +57,14 @@ void Solver::run(const LightField& light_field, const SolverSettings& settings, 
   solve(settings, SearchIn::AllLabels, context);
 }
 
+void Solver::runNear(const LightField& light_field, const SolverSettings& settings, const cv::Mat& disparity,
+                     RunContext& context)
+{
+  disparity.copyTo(disparity_);
+  prepare(light_field, settings, context);
+  solve(settings, SearchIn::BandsAroundLast, context);
+}
+
 bool Solver::follow(const LightField& light_field, const SolverSettings& settings, RunContext& context)
 {
   prepare(light_field, settings, context);

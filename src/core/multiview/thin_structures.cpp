@@ -79,17 +79,14 @@ private:
   /// Sum over three channels; a grey image counts three times.
   static std::size_t difference(const PlanarImage& guide, const std::uint8_t* a, const std::uint8_t* b)
   {
-    const std::size_t stride = guide.channelStride();
-    int sum = std::abs(static_cast<int>(a[0]) - static_cast<int>(b[0]));
-    if (guide.channels() == 1)
+    const int channels = guide.channels();
+    int sum = 0;
+    for (int channel = 0; channel < channels; ++channel)
     {
-      return static_cast<std::size_t>(3 * sum);
-    }
-    for (std::size_t offset = stride; offset <= 2 * stride; offset += stride)
-    {
+      const std::size_t offset = static_cast<std::size_t>(channel) * guide.channelStride();
       sum += std::abs(static_cast<int>(a[offset]) - static_cast<int>(b[offset]));
     }
-    return static_cast<std::size_t>(sum);
+    return static_cast<std::size_t>(sum) * (channels == 1 ? 3 : 1);
   }
 
   std::array<std::pair<float, float>, SIZE * SIZE> entries_;

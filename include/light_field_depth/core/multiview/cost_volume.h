@@ -25,16 +25,25 @@ struct CostVolume
   int height = 0;
   LabelBands bands;
   std::vector<std::uint8_t> values;
+  std::vector<std::size_t> offsets;  ///< where each tile begins, and the size
 
-  /// Takes the bands and makes room for all labels everywhere. Keeps the memory when it suffices.
-  void create(int width, int height, const LabelBands& bands);
-  std::size_t size() const { return tileOffset(bands.rows(), 0); }
+  /// How much room each tile has.
+  enum class Room
+  {
+    AllLabels,  ///< its band may change later
+    Band
+  };
+
+  /// Takes the bands. Keeps the memory when it suffices.
+  void create(int width, int height, const LabelBands& bands, Room room);
+  std::size_t size() const { return offsets.back(); }
   std::size_t tileOffset(int row, int column) const
   {
-    const auto tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(bands.columns()) +
-                      static_cast<std::size_t>(column);
-    return tile * static_cast<std::size_t>(bands.labels()) * TILE_PX * TILE_PX;
+    return offsets[static_cast<std::size_t>(row) * static_cast<std::size_t>(bands.columns()) +
+                   static_cast<std::size_t>(column)];
   }
+  /// Of the values of one row of tiles.
+  std::size_t largestRow() const;
 
   const LabelBand& bandAt(int x, int y) const { return bands.at(y / TILE_PX, x / TILE_PX); }
   /// Where the cost of a label of the pixel's band is; that of the next label is TILE_PX further.

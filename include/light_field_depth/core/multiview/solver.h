@@ -55,6 +55,12 @@ public:
   /// @param light_field 8-bit views whose outermost one stands about four steps from the reference
   void run(const LightField& light_field, const SolverSettings& settings, RunContext& context);
 
+  /// The same, but near a map that is known already: costs and memory for the labels about it alone.
+  /// @param settings without watch_scene
+  /// @param disparity CV_32FC1 in the unit of the light field, finite, of the size of the views
+  void runNear(const LightField& light_field, const SolverSettings& settings, const cv::Mat& disparity,
+               RunContext& context);
+
   /// The next frame of the same views: searches the labels near the last map, and all where the scene has
   /// changed. Everything in the result comes from this frame's images.
   /// @pre the last call succeeded, with views at the same places and the same settings, watch_scene among
