@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 namespace light_field_depth::multiview
 {
 namespace
@@ -29,30 +31,33 @@ constexpr float RESIDUAL_WEIGHT = 0.1F;
 constexpr float RESIDUAL_FREE = 15.0F;      // sum of three channels
 constexpr float RESIDUAL_PER_NOISE = 4.0F;  // of a difference of two noisy pixels, three channels
 
-/// Largest minus smallest value within `radius` pixels.
-float spread(const cv::Mat& disparity, int x, int y, int radius)
+/// Largest minus smallest value about each pixel of some rows.
+class Spread
 {
-  float low = disparity.at<float>(y, x);
-  float high = low;
-  for (int dy = -radius; dy <= radius; ++dy)
+public:
+  Spread(const cv::Mat& disparity, int first, int last, int radius) : first_(first)
   {
-    const auto* const row = disparity.ptr<float>(std::clamp(y + dy, 0, disparity.rows - 1));
-    for (int dx = -radius; dx <= radius; ++dx)
-    {
-      const float value = row[std::clamp(x + dx, 0, disparity.cols - 1)];
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
+    const cv::Mat window = cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8UC1);
+    // Part of a larger matrix: the filters see the rows above and below as well.
+    const cv::Mat rows = disparity.rowRange(first, last);
+    cv::dilate(rows, high_, window);
+    cv::erode(rows, low_, window);
   }
-  return high - low;
-}
+
+  float at(int x, int y) const { return high_.at<float>(y - first_, x) - low_.at<float>(y - first_, x); }
+
+private:
+  int first_;
+  cv::Mat high_;
+  cv::Mat low_;
+};
 
 float ramp(float value, float from, float width)
 {
   return std::clamp((value - from) / width, 0.0F, 1.0F);
 }
 
-float confidenceAt(const ConfidenceEvidence& evidence, int x, int y)
+float confidenceAt(const ConfidenceEvidence& evidence, float edge_px, float near_edge_px, int x, int y)
 {
   const auto at = [&](const cv::Mat& values) { return values.at<float>(y, x); };
   const Linearization& linear = evidence.linearization;
@@ -62,8 +67,8 @@ float confidenceAt(const ConfidenceEvidence& evidence, int x, int y)
   const float change = std::abs(at(evidence.first_search) - at(evidence.searched));
   const float unexplained = at(linear.residual) - RESIDUAL_FREE - RESIDUAL_PER_NOISE * evidence.noise_sigma;
   const float against =
-      BASE + EDGE_WEIGHT * ramp(spread(evidence.disparity, x, y, 1), EDGE_FROM_PX, EDGE_WIDTH_PX) +
-      NEAR_EDGE_WEIGHT * ramp(spread(evidence.disparity, x, y, 2), NEAR_EDGE_FROM_PX, EDGE_WIDTH_PX) +
+      BASE + EDGE_WEIGHT * ramp(edge_px, EDGE_FROM_PX, EDGE_WIDTH_PX) +
+      NEAR_EDGE_WEIGHT * ramp(near_edge_px, NEAR_EDGE_FROM_PX, EDGE_WIDTH_PX) +
       UNCERTAINTY_WEIGHT / std::sqrt(at(linear.weight) + 1.0F) +
       DISAGREEMENT_WEIGHT * std::min(at(linear.disagreement), DISAGREEMENT_LIMIT_PX) +
       PULL_WEIGHT * std::min(pull, PULL_LIMIT_PX) + MOVE_WEIGHT * std::min(move, MOVE_LIMIT_PX) +
@@ -79,12 +84,14 @@ void estimateConfidence(const ConfidenceEvidence& evidence, ThreadPool& pool, cv
   pool.parallelFor(0, confidence.rows, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
+                     const Spread close(evidence.disparity, first, last, 1);
+                     const Spread wide(evidence.disparity, first, last, 2);
                      for (int y = first; y < last; ++y)
                      {
                        auto* const row = confidence.ptr<float>(y);
                        for (int x = 0; x < confidence.cols; ++x)
                        {
-                         row[x] = confidenceAt(evidence, x, y);
+                         row[x] = confidenceAt(evidence, close.at(x, y), wide.at(x, y), x, y);
                        }
                      }
                    });
