@@ -15,7 +15,7 @@ const std::vector<Variant>& ablationVariants()
       {"no visibility pass", {"multiview_visibility_passes=0"}},
       {"two visibility passes", {"multiview_visibility_passes=2"}},
       {"textureless regions left where they are", {"multiview_background_fusion=false"}},
-      {"thin structures not kept", {"multiview_thin_structures=false"}},
+      {"thin structures kept", {"multiview_thin_structures=true"}},
       {"edge pixels not decided by colour", {"multiview_edge_sides=false"}},
       {"no refinement", {"multiview_refinements=0"}},
       {"one refinement", {"multiview_refinements=1"}},

@@ -52,8 +52,9 @@ struct MultiviewOptions
   int visibility_passes = PRESET_NUMBER;
   /// Move textureless regions to the farthest of their borders; the presets realtime and fast leave it out.
   bool background_fusion = true;
-  /// Keep twigs and wires that a median would wipe out.
-  bool thin_structures = true;
+  /// Keep twigs and wires that a median would wipe out. Set it for thickets; elsewhere it keeps more errors
+  /// than it saves structures.
+  bool thin_structures = false;
   /// Decide by colour to which side a pixel at a depth edge belongs.
   bool edge_sides = true;
   /// Times that the disparity is refined below the label step; more help smooth surfaces with gloss.

@@ -37,7 +37,7 @@ struct SolverSettings
   int visibility_passes = 1;
   bool fuse_background = true;
   BackgroundSettings background;
-  bool keep_thin_structures = true;
+  bool keep_thin_structures = false;
   ThinStructureSettings thin_structures;
   bool decide_edge_sides = true;
   EdgeSideSettings edge_sides;
