@@ -20,6 +20,7 @@ constexpr float CONTRAST_PER_SIGMA = 6.0F;
 constexpr int MAX_TRUNCATION = 60;
 constexpr float NOISY_LABEL_STEP_PX = 0.125F;  // finer ones are below what noise lets see
 constexpr float STRONG_SIGMA = 2.5F;
+constexpr int STRONG_NOISE_PASSES = 3;
 constexpr int WIDE_WINDOW_RADIUS = 4;
 
 }  // namespace
@@ -44,9 +45,12 @@ void adaptToNoise(float noise_sigma, SolverSettings& settings)
   {
     settings.linearization.window_radius = WIDE_WINDOW_RADIUS;
     // Worth their time only here, and only where colour is worth its time.
-    const bool once_more = !settings.grey_search;
-    settings.visibility_passes += once_more && settings.visibility_passes == 1 ? 1 : 0;
-    settings.refinements += once_more && settings.refinements > 0 ? 1 : 0;
+    if (!settings.grey_search)
+    {
+      settings.visibility_passes =
+          settings.visibility_passes > 0 ? std::max(settings.visibility_passes, STRONG_NOISE_PASSES) : 0;
+      settings.refinements += settings.refinements > 0 ? 1 : 0;
+    }
   }
 }
 
