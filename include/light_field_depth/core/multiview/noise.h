@@ -6,8 +6,8 @@
 namespace light_field_depth::multiview
 {
 /// Fits everything that depends on noise: blurs the views when there is some, and raises the truncation, the
-/// smoothness and the window of the refinement with what the blur leaves. Strong noise also gets three passes of
-/// visibility and one more refinement, except in grey searches.
+/// smoothness and the window of the refinement with what the blur leaves. Strong noise also gets three passes
+/// of visibility and one more refinement, except in grey searches.
 /// @param noise_sigma from estimateNoise()
 void adaptToNoise(float noise_sigma, SolverSettings& settings);
 
