@@ -94,24 +94,6 @@ struct CostVolumeBuilder::Task
 CostVolumeBuilder::CostVolumeBuilder() = default;
 CostVolumeBuilder::~CostVolumeBuilder() = default;
 
-std::unique_ptr<CostVolumeBuilder::Scratch> CostVolumeBuilder::takeScratch()
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (free_scratch_.empty())
-  {
-    return std::make_unique<Scratch>();
-  }
-  auto scratch = std::move(free_scratch_.back());
-  free_scratch_.pop_back();
-  return scratch;
-}
-
-void CostVolumeBuilder::giveBack(std::unique_ptr<Scratch> scratch)
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  free_scratch_.push_back(std::move(scratch));
-}
-
 void CostVolumeBuilder::buildFromArms(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
                                       const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
@@ -352,14 +334,16 @@ void CostVolumeBuilder::build(const Task& task, ThreadPool& pool, CostVolume& vo
   pool.parallelFor(0, volume.bands.rows(), TILE_ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
-                     auto scratch = takeScratch();
-                     const RowJob job{task, scales, *scratch, volume};
-                     job.begin();
-                     for (int y = first * TILE_PX; y < std::min(last * TILE_PX, volume.height); ++y)
-                     {
-                       job.run(y);
-                     }
-                     giveBack(std::move(scratch));
+                     scratch_.use(
+                         [&](Scratch& scratch)
+                         {
+                           const RowJob job{task, scales, scratch, volume};
+                           job.begin();
+                           for (int y = first * TILE_PX; y < std::min(last * TILE_PX, volume.height); ++y)
+                           {
+                             job.run(y);
+                           }
+                         });
                    });
 }
 

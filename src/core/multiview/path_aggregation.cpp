@@ -97,24 +97,6 @@ struct PathAggregator::Scratch
 PathAggregator::PathAggregator() = default;
 PathAggregator::~PathAggregator() = default;
 
-std::unique_ptr<PathAggregator::Scratch> PathAggregator::takeScratch()
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (free_scratch_.empty())
-  {
-    return std::make_unique<Scratch>();
-  }
-  auto scratch = std::move(free_scratch_.back());
-  free_scratch_.pop_back();
-  return scratch;
-}
-
-void PathAggregator::giveBack(std::unique_ptr<Scratch> scratch)
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  free_scratch_.push_back(std::move(scratch));
-}
-
 void PathAggregator::setGuide(const PlanarImage& guide, const PathSettings& settings, ThreadPool& pool)
 {
   // One tile more than the image on the right and below, so that whole tiles and the step after can be read.
@@ -313,12 +295,14 @@ void PathAggregator::aggregate(const CostVolume& volume, const PathSettings& set
     pool.parallelFor(0, count, 1,
                      [&](int first, int last)
                      {
-                       auto scratch = takeScratch();
-                       for (int i = first; i < last; ++i)
-                       {
-                         body(i, *scratch);
-                       }
-                       giveBack(std::move(scratch));
+                       scratch_.use(
+                           [&](Scratch& scratch)
+                           {
+                             for (int i = first; i < last; ++i)
+                             {
+                               body(i, scratch);
+                             }
+                           });
                      });
   };
   each(volume.bands.rows(),

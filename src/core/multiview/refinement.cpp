@@ -45,24 +45,6 @@ struct Linearizer::Scratch
 Linearizer::Linearizer() = default;
 Linearizer::~Linearizer() = default;
 
-std::unique_ptr<Linearizer::Scratch> Linearizer::takeScratch()
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (free_scratch_.empty())
-  {
-    return std::make_unique<Scratch>();
-  }
-  auto scratch = std::move(free_scratch_.back());
-  free_scratch_.pop_back();
-  return scratch;
-}
-
-void Linearizer::giveBack(std::unique_ptr<Scratch> scratch)
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  free_scratch_.push_back(std::move(scratch));
-}
-
 /// Rows first..last of the result, computed from top to bottom with rings of intermediate rows.
 class Linearizer::Band
 {
@@ -330,13 +312,13 @@ void Linearizer::run(const ViewSet& views, const cv::Mat& disparity, const Linea
   result.residual.create(disparity.size(), CV_32FC1);
   result.disagreement.create(disparity.size(), CV_32FC1);
   const Spokes spokes = findSpokes(views);
-  pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
-                   [&](int first, int last)
-                   {
-                     auto scratch = takeScratch();
-                     Band(views, spokes, disparity, settings, *scratch, result).run(first, last);
-                     giveBack(std::move(scratch));
-                   });
+  pool.parallelFor(
+      0, disparity.rows, ROWS_PER_CHUNK,
+      [&](int first, int last)
+      {
+        scratch_.use([&](Scratch& scratch)
+                     { Band(views, spokes, disparity, settings, scratch, result).run(first, last); });
+      });
 }
 
 }  // namespace light_field_depth::multiview

@@ -3,14 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <vector>
 
 #include "light_field_depth/core/multiview/label_bands.h"
 #include "light_field_depth/core/multiview/label_space.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
 #include "light_field_depth/core/multiview/scene_watch.h"
+#include "light_field_depth/core/multiview/scratch_pool.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview/visibility.h"
 #include "light_field_depth/core/thread_pool.h"
@@ -100,11 +99,8 @@ private:
   struct Task;
   struct RowJob;
   void build(const Task& task, ThreadPool& pool, CostVolume& volume);
-  std::unique_ptr<Scratch> takeScratch();
-  void giveBack(std::unique_ptr<Scratch> scratch);
 
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Scratch>> free_scratch_;
+  ScratchPool<Scratch> scratch_;
 };
 
 }  // namespace light_field_depth::multiview

@@ -3,13 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/multiview/cost_volume.h"
+#include "light_field_depth/core/multiview/scratch_pool.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/thread_pool.h"
 
@@ -51,15 +50,12 @@ private:
   struct Scratch;
   class Strip;
   class Column;
-  std::unique_ptr<Scratch> takeScratch();
-  void giveBack(std::unique_ptr<Scratch> scratch);
 
   std::vector<std::uint16_t> sums_;        // as CostVolume::values
   std::size_t step_stride_ = 0;            // of a row of steps
   std::vector<std::uint16_t> step_left_;   // P2 between (x - 1, y) and (x, y)
   std::vector<std::uint16_t> step_above_;  // P2 between (x, y - 1) and (x, y)
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Scratch>> free_scratch_;
+  ScratchPool<Scratch> scratch_;
 };
 
 }  // namespace light_field_depth::multiview

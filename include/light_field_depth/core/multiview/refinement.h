@@ -2,12 +2,11 @@
 #define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_REFINEMENT_H
 
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
+#include "light_field_depth/core/multiview/scratch_pool.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/thread_pool.h"
 
@@ -51,11 +50,8 @@ public:
 private:
   struct Scratch;
   class Band;
-  std::unique_ptr<Scratch> takeScratch();
-  void giveBack(std::unique_ptr<Scratch> scratch);
 
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Scratch>> free_scratch_;
+  ScratchPool<Scratch> scratch_;
 };
 
 }  // namespace light_field_depth::multiview
