@@ -186,7 +186,11 @@ LightField MultiviewEstimator::reduced(const LightField& chosen, RunContext& con
 void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& request, RunContext& context,
                                DisparityEstimate& estimate)
 {
-  if (options_.temporal && follow(views, request, context, estimate))
+  if (!options_.temporal)
+  {
+    buffers_->sequence.forget();  // no later frame may follow what the solver is going to hold
+  }
+  else if (follow(views, request, context, estimate))
   {
     return;
   }

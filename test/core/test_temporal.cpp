@@ -240,6 +240,27 @@ TEST(Temporal, BeginsAgainWhereTheViewsOrTheSettingsChange)
   EXPECT_FALSE(player.searchedInFull());
 }
 
+TEST(Temporal, BeginsAgainAfterFramesThatWereSolvedAlone)
+{
+  Player player(true);
+  const LightField frame = frameAt(0).light_field;
+  const cv::Mat first = player.see(frame);
+  SceneSettings smaller;
+  smaller.size = {96, 64};
+  smaller.positions = testing::crossPositions(5, 5);
+  for (const LightField& alone : {testing::renderScene(sceneAt(0), smaller).light_field, frame})
+  {
+    player.options().temporal = false;
+    player.estimator().setOptions(player.options());
+    player.see(alone);
+    player.options().temporal = true;
+    player.estimator().setOptions(player.options());
+    const cv::Mat again = player.see(frame);
+    EXPECT_TRUE(player.searchedInFull());
+    EXPECT_EQ(cv::norm(first, again, cv::NORM_INF), 0.0);
+  }
+}
+
 TEST(Temporal, BeginsAgainAfterAFrameThatWasStopped)
 {
   const auto input = frameAt(3);
