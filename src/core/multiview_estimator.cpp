@@ -60,22 +60,24 @@ LightField chosenViews(const LightField& light_field, ViewSelection selection)
   return on_cross > FEW_VIEWS ? selectViews(light_field, ViewSelection::Cross) : light_field;
 }
 
-double widestBaseline(const LightField& light_field)
+/// Pixels of disparity of the solver in one of the light field: with the solver's, the outermost view has
+/// REFERENCE_BASELINE.
+double solverUnit(const LightField& light_field)
 {
   double widest = 0.0;
   for (const View& view : light_field.views)
   {
     widest = std::max({widest, std::abs(view.steps.x), std::abs(view.steps.y)});
   }
-  return widest;
+  return widest / REFERENCE_BASELINE;
 }
 
-/// The light field with the unit of disparity changed so that the outermost view has REFERENCE_BASELINE.
-LightField scaledSteps(LightField light_field, double scale)
+/// The light field with the solver's unit of disparity.
+LightField inSolverUnit(LightField light_field, double unit)
 {
   for (View& view : light_field.views)
   {
-    view.steps *= 1.0 / scale;
+    view.steps *= 1.0 / unit;
   }
   return light_field;
 }
@@ -104,9 +106,10 @@ std::string textOf(const MultiviewOptions& options, const std::optional<Disparit
   return text.str();
 }
 
-/// @param unit pixels of disparity of the solver in one of the light field
-SolverSettings solverSettings(const MultiviewOptions& options, const SceneMeasures& measures, double unit)
+/// @param unit from solverUnit()
+SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures& measures, double unit)
 {
+  const MultiviewOptions options = withPresetNumbers(given);
   SolverSettings settings;
   settings.range = {static_cast<float>(measures.range.min * unit),
                     static_cast<float>(measures.range.max * unit)};
@@ -198,7 +201,7 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
   const LightField chosen = options_.preset == MultiviewPreset::Fast
                                 ? measureQuickly(views, request, context, measures)
                                 : measure(views, request, context, measures);
-  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
+  const double unit = solverUnit(chosen);
   const bool large = isLarge(chosen);
   if (large)
   {
@@ -206,8 +209,8 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
   }
   else
   {
-    const SolverSettings settings = solverSettings(withPresetNumbers(options_), measures, unit);
-    buffers_->solver.run(scaledSteps(chosen, unit), settings, context);
+    const SolverSettings settings = solverSettings(options_, measures, unit);
+    buffers_->solver.run(inSolverUnit(chosen, unit), settings, context);
   }
   estimate.range = measures.range;
   keepResult(unit, estimate);
@@ -277,21 +280,22 @@ LightField MultiviewEstimator::measureQuickly(const LightField& views, const Est
 void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const SceneMeasures& measures,
                                            RunContext& context)
 {
-  MultiviewOptions coarse_options = withPresetNumbers(options_);
-  coarse_options.refinements = std::min(coarse_options.refinements, 1);
-  coarse_options.temporal = false;
+  MultiviewOptions options = withPresetNumbers(options_);
+  options.temporal = false;
+  MultiviewOptions coarse_options = options;
+  coarse_options.refinements = std::min(options.refinements, 1);
   const LightField half = buffers_->coarse_half.reduce(chosen, context.pool);
-  const double half_unit = widestBaseline(half) / REFERENCE_BASELINE;
-  buffers_->coarse_solver.run(scaledSteps(half, half_unit),
-                              solverSettings(coarse_options, measures, half_unit), context);
+  const double half_unit = solverUnit(half);
+  multiview::Solver& coarse_solver = buffers_->coarse_solver;
+  coarse_solver.run(inSolverUnit(half, half_unit), solverSettings(coarse_options, measures, half_unit),
+                    context);
   DisparityEstimate coarse;
-  buffers_->coarse_solver.disparity().convertTo(coarse.disparity, CV_32F, 1.0 / half_unit);
-  coarse.confidence = buffers_->coarse_solver.confidence();
+  coarse_solver.disparity().convertTo(coarse.disparity, CV_32F, 1.0 / half_unit);
+  coarse.confidence = coarse_solver.confidence();
   upsample(chosen.reference().image, context, coarse);
-  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
-  SolverSettings settings = solverSettings(withPresetNumbers(options_), measures, unit);
-  settings.watch_scene = false;
-  buffers_->solver.runNear(scaledSteps(chosen, unit), settings, coarse.disparity * unit, context);
+  const double unit = solverUnit(chosen);
+  buffers_->solver.runNear(inSolverUnit(chosen, unit), solverSettings(options, measures, unit),
+                           coarse.disparity * unit, context);
 }
 
 /// The frame with what was measured on the last one that was searched in full.
@@ -315,9 +319,8 @@ bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& 
     const StageTimer timer(context, "noise");
     here.noise_sigma = estimateNoise(chosen.reference().image);
   }
-  const double unit = widestBaseline(chosen) / REFERENCE_BASELINE;
-  if (!buffers_->solver.follow(scaledSteps(chosen, unit),
-                               solverSettings(withPresetNumbers(options_), here, unit), context))
+  const double unit = solverUnit(chosen);
+  if (!buffers_->solver.follow(inSolverUnit(chosen, unit), solverSettings(options_, here, unit), context))
   {
     return false;
   }
