@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 namespace light_field_depth::multiview
 {
@@ -11,19 +10,7 @@ namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
 constexpr int COLUMNS_PER_CHUNK = 64;
-constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
 constexpr float TINY_WEIGHT = 1e-3F;  // keeps the system regular where nothing is known
-
-int colourDifference(const std::uint8_t* a, const std::uint8_t* b, int channels, std::size_t stride)
-{
-  int sum = 0;
-  for (int channel = 0; channel < channels; ++channel)
-  {
-    const std::size_t offset = static_cast<std::size_t>(channel) * stride;
-    sum += std::abs(static_cast<int>(a[offset]) - static_cast<int>(b[offset]));
-  }
-  return channels == 1 ? 3 * sum : sum;
-}
 
 }  // namespace
 
@@ -41,10 +28,8 @@ void EdgeAwareSmoother::setGuide(const PlanarImage& guide, const SmoothingSettin
   pool.parallelFor(0, guide.height(), ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
-                     const auto link = [&](const std::uint8_t* a, const std::uint8_t* b) {
-                       return table[static_cast<std::size_t>(
-                           colourDifference(a, b, guide.channels(), guide.channelStride()))];
-                     };
+                     const auto link = [&](const std::uint8_t* a, const std::uint8_t* b)
+                     { return table[colourDifference(guide, a, b)]; };
                      for (int y = first; y < last; ++y)
                      {
                        const std::uint8_t* const row = guide.row(y);

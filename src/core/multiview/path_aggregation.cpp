@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include "light_field_depth/core/multiview/path_kernels.h"
@@ -13,7 +12,6 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
-constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
 
 using StepTable = std::array<std::uint16_t, COLOUR_DIFFERENCES>;
 
@@ -27,18 +25,6 @@ StepTable makeStepTable(const PathSettings& settings)
     table[difference] = static_cast<std::uint16_t>(std::lround(std::max(floor, step)));
   }
   return table;
-}
-
-/// Sum over three channels; a grey image counts three times.
-int colourDifference(const std::uint8_t* a, const std::uint8_t* b, int channels, std::size_t stride)
-{
-  int sum = 0;
-  for (int channel = 0; channel < channels; ++channel)
-  {
-    const std::size_t offset = static_cast<std::size_t>(channel) * stride;
-    sum += std::abs(static_cast<int>(a[offset]) - static_cast<int>(b[offset]));
-  }
-  return channels == 1 ? 3 * sum : sum;
 }
 
 /// The states of TILE_PX paths on their way through tiles with different bands.
@@ -105,9 +91,8 @@ void PathAggregator::setGuide(const PlanarImage& guide, const PathSettings& sett
   step_left_.resize(step_stride_ * padded(guide.height()));
   step_above_.resize(step_left_.size());
   const StepTable table = makeStepTable(settings);
-  const auto step = [&](const std::uint8_t* a, const std::uint8_t* b) {
-    return table[static_cast<std::size_t>(colourDifference(a, b, guide.channels(), guide.channelStride()))];
-  };
+  const auto step = [&](const std::uint8_t* a, const std::uint8_t* b)
+  { return table[colourDifference(guide, a, b)]; };
   pool.parallelFor(0, guide.height(), ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {

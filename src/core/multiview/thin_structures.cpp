@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -15,7 +14,6 @@ namespace
 constexpr int RADIUS = 2;
 constexpr int SIZE = 2 * RADIUS + 1;
 constexpr int ROWS_PER_CHUNK = 16;
-constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
 
 using VoteTable = std::array<float, COLOUR_DIFFERENCES>;
 
@@ -44,7 +42,7 @@ public:
       const std::uint8_t* const pixels = guide.row(row);
       for (int column = left; column <= right; ++column)
       {
-        const float vote = votes[difference(guide, centre, pixels + column)];
+        const float vote = votes[colourDifference(guide, centre, pixels + column)];
         entries_[count_++] = {values[column], vote};
         total_ += vote;
       }
@@ -76,19 +74,6 @@ public:
   }
 
 private:
-  /// Sum over three channels; a grey image counts three times.
-  static std::size_t difference(const PlanarImage& guide, const std::uint8_t* a, const std::uint8_t* b)
-  {
-    const int channels = guide.channels();
-    int sum = 0;
-    for (int channel = 0; channel < channels; ++channel)
-    {
-      const std::size_t offset = static_cast<std::size_t>(channel) * guide.channelStride();
-      sum += std::abs(static_cast<int>(a[offset]) - static_cast<int>(b[offset]));
-    }
-    return static_cast<std::size_t>(sum) * (channels == 1 ? 3 : 1);
-  }
-
   std::array<std::pair<float, float>, SIZE * SIZE> entries_;
   std::size_t count_ = 0;
   float total_ = 0.0F;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -45,6 +46,23 @@ private:
   std::size_t pitch_ = 0;
   std::vector<std::uint8_t> values_;
 };
+
+/// Values of colourDifference().
+constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
+
+/// Sum of the absolute differences of two pixels of one PlanarImage over three channels, 0 ..
+/// COLOUR_DIFFERENCES - 1; a grey image counts three times.
+inline std::size_t colourDifference(const PlanarImage& image, const std::uint8_t* a, const std::uint8_t* b)
+{
+  const int channels = image.channels();
+  int sum = 0;
+  for (int channel = 0; channel < channels; ++channel)
+  {
+    const std::size_t offset = static_cast<std::size_t>(channel) * image.channelStride();
+    sum += std::abs(static_cast<int>(a[offset]) - static_cast<int>(b[offset]));
+  }
+  return static_cast<std::size_t>(channels == 1 ? 3 * sum : sum);
+}
 
 /// The views that stand in one direction from the reference, as a range of ViewSet::views. What hides a
 /// point from one of them tends to hide it from all of them.
