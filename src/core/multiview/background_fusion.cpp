@@ -64,15 +64,21 @@ float support(const CostVolume& volume, int x, int y, int label, int distance)
   return static_cast<float>(sum) / 18.0F;
 }
 
-/// Adds a charge, which begins with label 0, to the costs of a pixel and `count - 1` more on its right in
-/// the same tile.
-void addSaturated(const std::vector<std::uint8_t>& charge, int x, int y, int count, CostVolume& volume)
+/// What the labels from `first` on are charged: charge[i] for label first + i.
+struct Charge
+{
+  const std::vector<std::uint8_t>& charge;
+  int first;
+};
+
+/// Adds a charge to the costs of a pixel and of `count - 1` more on its right in the same tile.
+void addSaturated(const Charge& charge, int x, int y, int count, CostVolume& volume)
 {
   const LabelBand& band = volume.bandAt(x, y);
-  std::uint8_t* costs = volume.values.data() + volume.index(x, y, band.first);
-  for (int label = band.first; label < band.end(); ++label, costs += TILE_PX)
+  for (int label = std::max(charge.first, band.first); label < band.end(); ++label)
   {
-    const int added = charge[static_cast<std::size_t>(label)];
+    const int added = charge.charge[static_cast<std::size_t>(label - charge.first)];
+    std::uint8_t* const costs = volume.values.data() + volume.index(x, y, label);
     for (int i = 0; i < count; ++i)
     {
       costs[i] = static_cast<std::uint8_t>(std::min(costs[i] + added, 255));
@@ -80,13 +86,13 @@ void addSaturated(const std::vector<std::uint8_t>& charge, int x, int y, int cou
   }
 }
 
-/// 0 up to `first`, then a ramp up to `limit`.
-std::vector<std::uint8_t> ramp(int labels, float first, float per_label, int limit)
+/// 0 for `slack` labels, then a ramp up to `limit`.
+std::vector<std::uint8_t> ramp(int labels, float slack, float per_label, int limit)
 {
   std::vector<std::uint8_t> charge(static_cast<std::size_t>(labels));
   for (std::size_t label = 0; label < charge.size(); ++label)
   {
-    const float value = per_label * (static_cast<float>(label) - first);
+    const float value = per_label * (static_cast<float>(label) - slack);
     charge[label] = static_cast<std::uint8_t>(std::clamp(cvRound(value), 0, limit));
   }
   return charge;
@@ -140,6 +146,8 @@ void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparit
   moved_.setTo(NONE);
   disparity.convertTo(label_, CV_32F, 1.0 / labels.step_px, -labels.first_px / labels.step_px);
   findFloors(volume, pool);
+  const auto charge =
+      ramp(volume.bands.labels(), 0.0F, settings.bias_per_px * labels.step_px, settings.max_bias);
   pool.parallelFor(0, floor_.rows, 1,
                    [&](int first, int last)
                    {
@@ -147,28 +155,27 @@ void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparit
                      {
                        for (int block_x = 0; block_x < floor_.cols; ++block_x)
                        {
-                         chargeBlock(block_x, block_y, volume);
+                         chargeBlock(block_x, block_y, charge, volume);
                        }
                      }
                    });
 }
 
-void BackgroundFusion::chargeBlock(int block_x, int block_y, CostVolume& volume) const
+void BackgroundFusion::chargeBlock(int block_x, int block_y, const std::vector<std::uint8_t>& charge,
+                                   CostVolume& volume) const
 {
   const std::int16_t floor = floor_.at<std::int16_t>(block_y, block_x);
   if (floor == NONE)
   {
     return;
   }
-  const auto charge =
-      ramp(volume.bands.labels(), floor, settings_.bias_per_px * labels_.step_px, settings_.max_bias);
   const int last_x = std::min((block_x + 1) * BLOCK_PX, volume.width);
   const int last_y = std::min((block_y + 1) * BLOCK_PX, volume.height);
   for (int y = block_y * BLOCK_PX; y < last_y; ++y)
   {
     for (int x = block_x * BLOCK_PX; x < last_x; x += TILE_PX)
     {
-      addSaturated(charge, x, y, std::min(TILE_PX, last_x - x), volume);
+      addSaturated({charge, floor}, x, y, std::min(TILE_PX, last_x - x), volume);
     }
   }
 }
@@ -338,6 +345,8 @@ void BackgroundFusion::addLinks(const PathAggregator& paths, const PathSettings&
 
 void BackgroundFusion::hold(ThreadPool& pool, CostVolume& volume) const
 {
+  const auto charge = ramp(volume.bands.labels(), settings_.hold_slack_px / labels_.step_px,
+                           settings_.hold_per_px * labels_.step_px, settings_.max_hold);
   pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
@@ -348,11 +357,7 @@ void BackgroundFusion::hold(ThreadPool& pool, CostVolume& volume) const
                          const std::int16_t label = moved_.at<std::int16_t>(y, x);
                          if (label != NONE)
                          {
-                           const auto free_up_to =
-                               static_cast<float>(label) + settings_.hold_slack_px / labels_.step_px;
-                           addSaturated(ramp(volume.bands.labels(), free_up_to,
-                                             settings_.hold_per_px * labels_.step_px, settings_.max_hold),
-                                        x, y, 1, volume);
+                           addSaturated({charge, label}, x, y, 1, volume);
                          }
                        }
                      }

@@ -57,7 +57,8 @@ private:
   struct Region;
   void findFloors(const CostVolume& volume, ThreadPool& pool);
   void chooseFloors(int labels);
-  void chargeBlock(int block_x, int block_y, CostVolume& volume) const;
+  void chargeBlock(int block_x, int block_y, const std::vector<std::uint8_t>& charge,
+                   CostVolume& volume) const;
   void addData(const CostVolume& volume, const cv::Mat& background, std::vector<Region>& regions) const;
   void addLinks(const PathAggregator& paths, const PathSettings& settings, const cv::Mat& background,
                 std::vector<Region>& regions) const;
