@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
 #include "accuracy_table.h"
 #include "contestant.h"
@@ -73,14 +73,7 @@ Change exposureDifferences(double gain_percent, double offset_levels)
 
 Change grey()
 {
-  return toEveryView(
-      [](cv::Mat& image, cv::RNG& /*random*/)
-      {
-        if (image.channels() == 3)
-        {
-          cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
-        }
-      });
+  return toEveryView([](cv::Mat& image, cv::RNG& /*random*/) { image = toGrey(image); });
 }
 
 /// The reference and the views at these positions beside it, all of which must be there.

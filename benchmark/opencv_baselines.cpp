@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
 #include "light_field_depth/core/error.h"
@@ -18,17 +17,6 @@ namespace
 constexpr float UNKNOWN = std::numeric_limits<float>::quiet_NaN();
 constexpr int LABEL_MULTIPLE = 16;  // OpenCV's matchers search a multiple of 16 whole pixels
 constexpr float SUBPIXEL_STEPS = 16.0F;
-
-cv::Mat toGrey(const cv::Mat& image)
-{
-  if (image.channels() == 1)
-  {
-    return image;
-  }
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
-}
 
 cv::Mat disparityFromFlow(const cv::Mat& flow, const cv::Point2d& steps)
 {

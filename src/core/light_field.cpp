@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "light_field_depth/core/error.h"
 
 namespace light_field_depth
@@ -285,6 +287,17 @@ LightField toEightBit(const LightField& light_field)
     view.image = eight_bit;
   }
   return result;
+}
+
+cv::Mat toGrey(const cv::Mat& image)
+{
+  if (image.channels() == 1)
+  {
+    return image;
+  }
+  cv::Mat grey;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  return grey;
 }
 
 }  // namespace light_field_depth

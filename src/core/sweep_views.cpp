@@ -122,17 +122,6 @@ cv::Mat halve(const cv::Mat& image, int times)
   return result;
 }
 
-cv::Mat toGrey(const cv::Mat& image)
-{
-  if (image.channels() == 1)
-  {
-    return image;
-  }
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
-}
-
 int blurFor(const cv::Mat& image)
 {
   constexpr float SLIGHT_NOISE = 1.0F;

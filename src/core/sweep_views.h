@@ -35,9 +35,6 @@ int halvingsFor(const cv::Size& size, int side_px);
 /// @return the image itself, sharing its pixels, for 0 times
 cv::Mat halve(const cv::Mat& image, int times);
 
-/// @return the image itself, sharing its pixels, if it is grey
-cv::Mat toGrey(const cv::Mat& image);
-
 /// Side of the Gaussian kernel that a noisy grey image needs before single pixels are compared; 1 for none.
 int blurFor(const cv::Mat& image);
 

@@ -44,17 +44,8 @@ cv::Mat derivative(const cv::Mat& image, int dx, int dy)
 
 cv::Mat smoothedLuminance(const cv::Mat& image, double sigma)
 {
-  cv::Mat grey;
-  if (image.channels() == 1)
-  {
-    grey = image;
-  }
-  else
-  {
-    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  }
   cv::Mat values;
-  grey.convertTo(values, CV_32F);
+  toGrey(image).convertTo(values, CV_32F);
   if (sigma > 0.0)
   {
     cv::GaussianBlur(values, values, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);

@@ -4,7 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
 namespace light_field_depth
@@ -83,17 +82,6 @@ std::vector<SeedMatches> matchByPatchMatch(const LightField& light_field,
                                            range, options);
                            });
   return matches;
-}
-
-cv::Mat toGrey(const cv::Mat& image)
-{
-  if (image.channels() == 1)
-  {
-    return image;
-  }
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
 }
 
 /// A match for every pixel: the flow of OpenCV's DIS, projected on the epipolar line.

@@ -123,6 +123,9 @@ LightField selectViews(const LightField& light_field, ViewSelection selection);
 /// views: the smallest power of two that holds the brightest value. Images of 8 bits are shared.
 LightField toEightBit(const LightField& light_field);
 
+/// The brightness of a grey or BGR image. @return the image itself, sharing its pixels, if it is grey
+cv::Mat toGrey(const cv::Mat& image);
+
 }  // namespace light_field_depth
 
 #endif  // LIGHT_FIELD_DEPTH_CORE_LIGHT_FIELD_H

@@ -76,11 +76,7 @@ void fillRow(const std::uint8_t* pixels, int pixel_stride, PlanarImage& planar, 
 /// The image in the channels and with the blur that are asked for.
 cv::Mat preparedImage(const cv::Mat& image, const ViewSetSettings& settings)
 {
-  cv::Mat prepared = image;
-  if (settings.grey && image.channels() == 3)
-  {
-    cv::cvtColor(image, prepared, cv::COLOR_BGR2GRAY);
-  }
+  cv::Mat prepared = settings.grey ? toGrey(image) : image;
   if (settings.blur_sigma_px > 0.0)
   {
     cv::Mat blurred;

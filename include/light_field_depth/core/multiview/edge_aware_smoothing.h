@@ -1,8 +1,6 @@
 #ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_EDGE_AWARE_SMOOTHING_H
 #define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_EDGE_AWARE_SMOOTHING_H
 
-#include <vector>
-
 #include <array>
 #include <vector>
 

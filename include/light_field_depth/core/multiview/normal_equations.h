@@ -67,8 +67,9 @@ struct FinalRow
   int width = 0;
 };
 
-/// The loops over the pixels of a row. One source is compiled for every instruction set and no sum is
-/// reordered, so that all processors give the same bits.
+/// The loops over the pixels of a row. Rows of [stride] numbers are read and written up to a multiple of 16
+/// beyond the width. One source is compiled for every instruction set and no sum is reordered, so that all
+/// processors give the same bits.
 
 /// sums[i] = rows[0][i] + rows[1][i] + ...
 void sumRows(const float* const* rows, int row_count, std::size_t count, float* sums);
