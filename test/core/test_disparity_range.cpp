@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "light_field_depth/io/dataset.h"
-#include "light_field_depth/io/pfm.h"
+#include "support/benchmark_scenes.h"
 #include "support/synthetic_scene.h"
 
 namespace light_field_depth
@@ -220,36 +218,17 @@ TEST(DisparityRange, CoversTheTruthOfTheBenchmarkScenes)
   ThreadPool pool(2);
   for (const std::string name : {"cotton", "antinous"})
   {
-    const std::filesystem::path folder = "../shared/data/hci/" + name;
-    if (!std::filesystem::exists(folder))
+    const auto scene = testing::readBenchmarkScene(name);
+    if (!scene)
     {
-      GTEST_SKIP() << folder << " is absent.";
+      GTEST_SKIP() << name << " is not in " << testing::BENCHMARK_SCENES;
     }
-    const Dataset dataset = readDataset(folder);
-    const cv::Mat truth = readPfm(folder / "gt_disp_lowres.pfm");
     for (const auto selection : {ViewSelection::All, ViewSelection::Row, ViewSelection::Cross})
     {
       SCOPED_TRACE(name + ", " + toString(selection));
-      expectTight(findDisparityRange(selectViews(dataset.light_field, selection), pool), truth, 0.6);
+      expectTight(findDisparityRange(selectViews(scene->light_field, selection), pool), scene->truth, 0.6);
     }
   }
-}
-
-LightField withNoise(const LightField& light_field, double sigma)
-{
-  LightField result = light_field;
-  cv::RNG random(77);
-  for (View& view : result.views)
-  {
-    cv::Mat values;
-    cv::Mat noise(view.image.size(), CV_MAKETYPE(CV_32F, view.image.channels()));
-    random.fill(noise, cv::RNG::NORMAL, 0.0, sigma);
-    view.image.convertTo(values, CV_32F);
-    values += noise;
-    view.image = cv::Mat();  // the pixels of the other light field stay
-    values.convertTo(view.image, CV_8U);
-  }
-  return result;
 }
 
 TEST(DisparityRange, StaysNarrowWhenTheBenchmarkScenesAreNoisy)
@@ -257,27 +236,26 @@ TEST(DisparityRange, StaysNarrowWhenTheBenchmarkScenesAreNoisy)
   ThreadPool pool(2);
   for (const std::string name : {"cotton", "antinous"})
   {
-    const std::filesystem::path folder = "../shared/data/hci/" + name;
-    if (!std::filesystem::exists(folder))
+    const auto scene = testing::readBenchmarkScene(name);
+    if (!scene)
     {
-      GTEST_SKIP() << folder << " is absent.";
+      GTEST_SKIP() << name << " is not in " << testing::BENCHMARK_SCENES;
     }
-    const LightField cross = selectViews(readDataset(folder).light_field, ViewSelection::Cross);
+    const LightField cross = selectViews(scene->light_field, ViewSelection::Cross);
     const std::size_t row = cross.reference_index;
     const LightField pair = makeLightField({cross.reference(), cross.views[row - 4]}, cross.reference().grid);
-    const cv::Mat truth = readPfm(folder / "gt_disp_lowres.pfm");
     double min = 0.0;
     double max = 0.0;
-    cv::minMaxIdx(truth, &min, &max);
+    cv::minMaxIdx(scene->truth, &min, &max);
     for (const double sigma : {3.0, 8.0})
     {
       for (const LightField& light_field : {cross, pair})
       {
-        const DisparityRange range = findDisparityRange(withNoise(light_field, sigma), pool);
+        const DisparityRange range = findDisparityRange(testing::withNoise(light_field, sigma), pool);
         SCOPED_TRACE(name + ", " + std::to_string(light_field.views.size()) + " views, noise " +
                      std::to_string(sigma) + ": " + std::to_string(range.min) + " .. " +
                      std::to_string(range.max));
-        EXPECT_GE(coveredPercentage(range, truth), 98.0);
+        EXPECT_GE(coveredPercentage(range, scene->truth), 98.0);
         EXPECT_GE(range.min, min - 1.0);
         EXPECT_LE(range.max, max + 1.0);
       }

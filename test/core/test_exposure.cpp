@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -12,9 +11,8 @@
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/pipeline.h"
-#include "light_field_depth/io/dataset.h"
 #include "light_field_depth/io/evaluation.h"
-#include "light_field_depth/io/pfm.h"
+#include "support/benchmark_scenes.h"
 #include "support/named_scenes.h"
 
 namespace light_field_depth
@@ -249,22 +247,20 @@ TEST(Exposure, CostsTheBenchmarkScenesHardlyAnyAccuracy)
   Pipeline pipeline(2);
   for (const std::string name : {"cotton", "antinous"})
   {
-    const std::filesystem::path folder = "../shared/data/hci/" + name;
-    if (!std::filesystem::exists(folder))
+    const auto scene = testing::readBenchmarkScene(name);
+    if (!scene)
     {
-      GTEST_SKIP() << folder << " is absent.";
+      GTEST_SKIP() << name << " is not in " << testing::BENCHMARK_SCENES;
     }
-    const Dataset dataset = readDataset(folder);
-    const cv::Mat truth = readPfm(folder / "gt_disp_lowres.pfm");
-    const LightField clean = selectViews(dataset.light_field, ViewSelection::Cross);
+    const LightField clean = selectViews(scene->light_field, ViewSelection::Cross);
     ThreadPool pool(2);
     for (const ViewExposure& exposure : estimateExposure(clean, pool))
     {
       EXPECT_FALSE(exposure.differs) << name;
     }
-    const Evaluation without = evaluate(pipeline.run(clean, {}, {}).estimate.disparity, truth);
+    const Evaluation without = evaluate(pipeline.run(clean, {}, {}).estimate.disparity, scene->truth);
     const Evaluation with =
-        evaluate(pipeline.run(withRandomExposure(clean), {}, {}).estimate.disparity, truth);
+        evaluate(pipeline.run(withRandomExposure(clean), {}, {}).estimate.disparity, scene->truth);
     EXPECT_LT(with.mse_100, 1.2 * without.mse_100) << name;
     EXPECT_LT(with.badpix_007, 1.2 * without.badpix_007) << name;
   }

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include "light_field_depth/core/error.h"
-#include "light_field_depth/io/dataset.h"
+#include "support/benchmark_scenes.h"
 #include "support/synthetic_scene.h"
 
 namespace light_field_depth
@@ -74,13 +73,13 @@ TEST(NoiseEstimate, MeasuresNoiseAddedToTheBenchmarkScenes)
 {
   for (const std::string name : {"cotton", "antinous"})
   {
-    const std::filesystem::path folder = "../shared/data/hci/" + name;
-    if (!std::filesystem::exists(folder))
+    const auto scene = testing::readBenchmarkScene(name);
+    if (!scene)
     {
-      GTEST_SKIP() << folder << " is absent.";
+      GTEST_SKIP() << name << " is not in " << testing::BENCHMARK_SCENES;
     }
     SCOPED_TRACE(name);
-    const cv::Mat image = readDataset(folder).light_field.reference().image;
+    const cv::Mat image = scene->light_field.reference().image;
     EXPECT_LT(estimateNoise(image), 1.0F);
     expectEstimates(image);
   }

@@ -1,15 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/pipeline.h"
-#include "light_field_depth/io/dataset.h"
-#include "light_field_depth/io/pfm.h"
 #include "light_field_depth/io/sparsification.h"
+#include "support/benchmark_scenes.h"
 #include "support/temporary_folder.h"
 
 namespace light_field_depth
@@ -119,15 +117,13 @@ class ConfidenceOfMultiview : public ::testing::TestWithParam<Bounds>
 TEST_P(ConfidenceOfMultiview, FindsTheBadPixels)
 {
   const Bounds& bounds = GetParam();
-  const auto folder = std::filesystem::path("../shared/data/hci") / bounds.scene;
-  if (!std::filesystem::exists(folder))
+  const auto scene = testing::readBenchmarkScene(bounds.scene);
+  if (!scene)
   {
-    GTEST_SKIP() << "The scene " << bounds.scene << " of the HCI benchmark is not at " << folder;
+    GTEST_SKIP() << bounds.scene << " is not in " << testing::BENCHMARK_SCENES;
   }
-  const Dataset dataset = readDataset(folder);
-  const DisparityEstimate estimate = Pipeline(2).run(dataset.light_field, {}, {}).estimate;
-  const Sparsification found =
-      sparsify(estimate.disparity, estimate.confidence, readPfm(dataset.truth.value()));
+  const DisparityEstimate estimate = Pipeline(2).run(scene->light_field, {}, {}).estimate;
+  const Sparsification found = sparsify(estimate.disparity, estimate.confidence, scene->truth);
   EXPECT_LT(withoutLeastConfidentTenth(found.mse_100), bounds.mse_100_without_tenth);
   EXPECT_LT(withoutLeastConfidentTenth(found.badpix_007), bounds.badpix_007_without_tenth);
   EXPECT_LT(withoutLeastConfidentTenth(found.badpix_007), 0.5 * found.badpix_007.error.front())
