@@ -21,40 +21,8 @@ while [ $# -gt 0 ]; do
   shift 2
 done
 
-PIDS=()
-cleanup()
-{
-  trap - EXIT
-  local pid
-  for pid in "${PIDS[@]}"; do
-    kill -INT "$pid" 2>/dev/null || true
-  done
-  for pid in "${PIDS[@]}"; do
-    timeout 15 tail --pid="$pid" -f /dev/null || kill -KILL "$pid" 2>/dev/null || true
-  done
-  rm -rf "$SCRATCH"
-}
-SCRATCH=$(mktemp -d)
-trap cleanup EXIT
-trap 'exit 130' INT TERM
-export ROS_HOME=$SCRATCH/ros ROS_LOG_DIR=$SCRATCH/log
-PORT=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
-export ROS_MASTER_URI=http://localhost:$PORT
-
-say()
-{
-  echo "[bench --node] $*" >&2
-}
-
-wait_until()
-{
-  local deadline=$((SECONDS + $1))
-  shift
-  until "$@"; do
-    [ $SECONDS -lt $deadline ] || { say "'$*' has not come about in time."; exit 1; }
-    sleep 0.2
-  done
-}
+NAME="bench --node"
+. "$TOP/scripts/own_ros.sh"
 
 # fail SENTENCE: with what the programs said last.
 fail()
@@ -62,11 +30,6 @@ fail()
   tail -n 20 "$SCRATCH"/{node,play}.log >&2
   say "$1"
   exit 1
-}
-
-master_answers()
-{
-  (exec 3<>"/dev/tcp/localhost/$PORT") 2>/dev/null
 }
 
 # measure LABEL FILE PRODUCT...: one row of the table.
@@ -93,12 +56,12 @@ measure()
   tail -n 1 "$SCRATCH/table.md" >&2
 }
 
-mkdir -p "$RESULTS" "$ROS_HOME" "$ROS_LOG_DIR"
+mkdir -p "$RESULTS"
 say "writing a bag of $FRAMES frames at $RATE Hz"
 "$TOOLS/dataset_to_bag" --input "$TOP/data/demo" --output "$SCRATCH/light_field.bag" --count "$FRAMES" --rate "$RATE" >&2
 roscore -p "$PORT" >"$SCRATCH/master.log" 2>&1 &
 PIDS+=($!)
-wait_until 30 master_answers
+wait_until 30 master_answers || { say "The ROS master did not come up within 30 s."; exit 1; }
 
 cat >"$SCRATCH/table.md" <<TEXT
 | listened to, besides the stats | sets | dropped | rate, Hz | latency, median ms | 99th percentile | longest | conversion, mean ms | pipeline, mean ms | publication, mean ms |

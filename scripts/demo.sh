@@ -15,36 +15,8 @@ for argument in "$@"; do
   esac
 done
 
-PIDS=()
-cleanup()
-{
-  trap - EXIT
-  local pid
-  for pid in "${PIDS[@]}"; do
-    kill -INT "$pid" 2>/dev/null || true
-  done
-  for pid in "${PIDS[@]}"; do
-    timeout 15 tail --pid="$pid" -f /dev/null || kill -KILL "$pid" 2>/dev/null || true
-  done
-}
-trap cleanup EXIT
-trap 'exit 130' INT TERM
-
-say()
-{
-  echo "[demo] $*" >&2
-}
-
-# wait_until SECONDS COMMAND...: polls; fails when the time is over.
-wait_until()
-{
-  local deadline=$((SECONDS + $1))
-  shift
-  until "$@"; do
-    [ $SECONDS -lt $deadline ] || return 1
-    sleep 0.5
-  done
-}
+NAME=demo
+. "$TOP/scripts/own_ros.sh"
 
 start_virtual_display()
 {
@@ -63,13 +35,9 @@ take_picture()
 }
 
 mkdir -p "$OUTPUT"
-SCRATCH=$(mktemp -d)
-export ROS_HOME=$SCRATCH/ros ROS_LOG_DIR=$SCRATCH/log ROSCONSOLE_STDOUT_LINE_BUFFERED=1
+export ROSCONSOLE_STDOUT_LINE_BUFFERED=1
 export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-$SCRATCH/runtime}
-mkdir -p "$ROS_HOME" "$ROS_LOG_DIR"
 mkdir -p -m 700 "$XDG_RUNTIME_DIR"
-PORT=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
-export ROS_MASTER_URI=http://localhost:$PORT
 
 say "writing the bag"
 "$TOOLS/dataset_to_bag" --input "$TOP/data/demo" --output "$SCRATCH/demo.bag" --count 20 --rate 2
@@ -89,12 +57,12 @@ fail()
   exit 1
 }
 
-master_answers()
+launch_answers()
 {
   kill -0 "$LAUNCH" 2>/dev/null || fail "roslaunch ended early."
-  (exec 3<>"/dev/tcp/localhost/$PORT") 2>/dev/null
+  master_answers
 }
-wait_until 30 master_answers || fail "The ROS master did not come up within 30 s."
+wait_until 30 launch_answers || fail "The ROS master did not come up within 30 s."
 
 "$TOOLS/demo_report" --truth "$TOP/data/demo/truth.pfm" --output "$OUTPUT" --timeout 90 &
 REPORT=$!

@@ -77,9 +77,9 @@ const std::vector<Case> CASES = {
     {"wide_block", "cotton", MultiviewPreset::Balanced, {1.2, 5.0, 100.0}, wideBlock},
 };
 
-void PrintTo(const Case& test, std::ostream* stream)
+std::ostream& operator<<(std::ostream& stream, const Case& test)
 {
-  *stream << test.name << " on " << test.scene;
+  return stream << test.name << " on " << test.scene;
 }
 
 class MultiviewAccuracy : public ::testing::TestWithParam<Case>
