@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +30,7 @@ SceneSettings crossSettings(int side = 9)
   return settings;
 }
 
-DisparityEstimate estimate(const LightField& light_field, const DisparityRange& range,
+DisparityEstimate estimate(const LightField& light_field, const std::optional<DisparityRange>& range,
                            const MultiviewOptions& options = {}, int threads = 2)
 {
   MultiviewEstimator estimator(options);
@@ -66,6 +67,23 @@ TEST(MultiviewEstimator, DoesNotDependOnTheNumberOfThreads)
     const auto many = estimate(input.light_field, STANDARD_RANGE, {}, threads);
     EXPECT_EQ(cv::norm(one.disparity, many.disparity, cv::NORM_INF), 0.0) << threads << " threads";
     EXPECT_EQ(cv::norm(one.confidence, many.confidence, cv::NORM_INF), 0.0) << threads << " threads";
+  }
+}
+
+TEST(MultiviewEstimator, DoesNotDependOnTheOrderInWhichTheViewsCome)
+{
+  for (const bool cross : {true, false})
+  {
+    auto settings = crossSettings(5);
+    settings.positions = cross ? testing::crossPositions(5, 5) : testing::gridPositions(3, 3);
+    const LightField sorted = standardLightField(settings).light_field;
+    std::vector<View> views(sorted.views.rbegin(), sorted.views.rend());
+    std::swap(views[1], views[4]);
+    const LightField shuffled = makeLightField(views, sorted.reference().grid);
+    const auto one = estimate(sorted, std::nullopt);
+    const auto other = estimate(shuffled, std::nullopt);
+    EXPECT_EQ(cv::norm(one.disparity, other.disparity, cv::NORM_INF), 0.0);
+    EXPECT_EQ(cv::norm(one.confidence, other.confidence, cv::NORM_INF), 0.0);
   }
 }
 
@@ -247,7 +265,7 @@ TEST(MultiviewEstimator, UsesPositionsOffTheGridAndOffsets)
       view.offset_px = {3.0, -2.0};
     }
   }
-  const auto result = estimate(input.light_field, {-2.4F, 3.5F});
+  const auto result = estimate(input.light_field, DisparityRange{-2.4F, 3.5F});
   const cv::Mat unscaled = result.disparity * 0.7;
   EXPECT_LT(testing::badPercentage(unscaled, input.truth, 0.1), 4.0);
 }
@@ -262,7 +280,7 @@ TEST(MultiviewEstimator, SolvesLargeDisparitiesOfASparseArray)
       testing::rectangle(10.0, {60, 30, 60, 70}, testing::noiseTexture(5, 14.0, {150, 110, 90})),
   };
   const auto input = testing::renderScene(scene, settings);
-  const auto result = estimate(input.light_field, {1.0F, 11.0F});
+  const auto result = estimate(input.light_field, DisparityRange{1.0F, 11.0F});
   EXPECT_LT(testing::badPercentage(result.disparity, input.truth, 0.3, 12), 4.0);
 }
 
