@@ -11,6 +11,7 @@
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 #include "light_field_depth/core/multiview/path_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
+#include "light_field_depth/core/multiview/smoothing_kernels.h"
 #include "light_field_depth/core/multiview/visibility_kernels.h"
 
 namespace light_field_depth::benchmark
@@ -308,12 +309,77 @@ Kernel halving()
           PIXELS * (4.0 * CHANNELS + 1.0), with(halveRow),  with(halveRowPlain)};
 }
 
+/// Rows of a system, two above each other that are not solved between those that are.
+struct SmoothingData
+{
+  static constexpr std::size_t ROWS = 2 * ROWS_AT_ONCE + 1;
+  std::vector<float> weight = std::vector<float>(ROWS * STRIDE, 20.0F);
+  std::vector<float> target = std::vector<float>(ROWS * STRIDE, 1.0F);
+  std::vector<float> left = std::vector<float>(ROWS * STRIDE, 30.0F);
+  std::vector<float> up = std::vector<float>(ROWS * STRIDE, 40.0F);
+  std::vector<float> values = std::vector<float>(ROWS * STRIDE, 1.5F);
+  std::vector<float> scratch = std::vector<float>(rowScratch(WIDTH));
+  std::array<SystemRow, ROWS_AT_ONCE> rows;
+  ColumnStep step;
+
+  SmoothingData()
+  {
+    for (std::size_t r = 0; r < rows.size(); ++r)
+    {
+      const std::size_t y = (2 * r + 1) * STRIDE;
+      left[y] = left[y + PIXELS] = 0.0F;
+      rows[r] = {&weight[y],          &target[y],          &left[y],  &up[y], &up[y + STRIDE],
+                 &values[y - STRIDE], &values[y + STRIDE], &values[y]};
+    }
+    step.weight = weight.data();
+    step.target = target.data();
+    step.left = left.data();
+    step.up = step.down = up.data();
+    step.disparity = values.data();
+    step.last = step.width = WIDTH;
+    step.factor_above = step.value_above = values.data() + STRIDE;
+    step.factor = scratch.data();
+    step.value = scratch.data() + PIXELS;
+  }
+};
+
+Kernel rowSolution()
+{
+  const auto data = std::make_shared<SmoothingData>();
+  const auto with = [&](auto kernel)
+  {
+    return calling(data, [kernel](SmoothingData& held)
+                   { kernel(held.rows.data(), ROWS_AT_ONCE, WIDTH, held.scratch.data()); });
+  };
+  constexpr double floats_per_pixel = 8.0;
+  return {"rows solved",
+          "pixel",
+          PIXELS * static_cast<double>(ROWS_AT_ONCE),
+          PIXELS * ROWS_AT_ONCE * floats_per_pixel * sizeof(float),
+          with(solveRows),
+          with(solveRowsPlain)};
+}
+
+Kernel columnElimination()
+{
+  const auto data = std::make_shared<SmoothingData>();
+  const auto with = [&](auto kernel)
+  { return calling(data, [kernel](SmoothingData& held) { kernel(held.step); }); };
+  constexpr double floats_per_pixel = 10.0;
+  return {"columns eliminated",
+          "pixel",
+          PIXELS,
+          PIXELS * floats_per_pixel * sizeof(float),
+          with(eliminateColumns),
+          with(eliminateColumnsPlain)};
+}
+
 }  // namespace
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(),  armCost(),       visibleCost(), transposition(), tilePaths(),
-          labelSelection(), linearization(), warping(),     halving()};
+  return {interpolation(), armCost(), visibleCost(), transposition(), tilePaths(),        labelSelection(),
+          linearization(), warping(), halving(),     rowSolution(),   columnElimination()};
 }
 
 }  // namespace light_field_depth::benchmark

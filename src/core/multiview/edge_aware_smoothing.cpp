@@ -3,259 +3,219 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "light_field_depth/core/multiview/smoothing_kernels.h"
 
 namespace light_field_depth::multiview
 {
 namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
+/// Rows that are worked on while they are in the cache of a core; even.
+constexpr int BAND_ROWS = 2 * ROWS_AT_ONCE;
 constexpr int COLUMNS_PER_CHUNK = 64;
-constexpr float TINY_WEIGHT = 1e-3F;  // keeps the system regular where nothing is known
 
 }  // namespace
+
+/// Of one chunk at work.
+struct EdgeAwareSmoother::Scratch
+{
+  std::vector<float> eliminations;
+  std::vector<std::uint16_t> from_left;
+  std::vector<std::uint16_t> from_above;
+};
+
+EdgeAwareSmoother::EdgeAwareSmoother() = default;
+EdgeAwareSmoother::~EdgeAwareSmoother() = default;
 
 void EdgeAwareSmoother::setGuide(const PlanarImage& guide, const SmoothingSettings& settings,
                                  ThreadPool& pool)
 {
-  guide_left_.create(guide.height(), guide.width(), CV_32FC1);
-  guide_above_.create(guide.height(), guide.width(), CV_32FC1);
+  const int width = guide.width();
+  guide_left_.create(guide.height(), width, CV_32FC1);
+  guide_above_.create(guide.height(), width, CV_32FC1);
   std::array<float, COLOUR_DIFFERENCES> table{};
   for (std::size_t difference = 0; difference < table.size(); ++difference)
   {
     table[difference] = settings.strength * std::exp(-settings.image_edge_decay *
                                                      static_cast<float>(difference) / COLOUR_DIFFERENCES);
   }
+  const auto setRow = [&](int y, Scratch& scratch)
+  {
+    const std::uint8_t* const row = guide.row(y);
+    colourChanges({row, guide.row(y - 1), guide.channelStride(), guide.channels(), width},
+                  scratch.from_left.data(), scratch.from_above.data());
+    const auto link = [&](std::uint16_t change) { return table[change]; };
+    std::transform(scratch.from_left.begin(), scratch.from_left.end(), guide_left_.ptr<float>(y), link);
+    std::transform(scratch.from_above.begin(), scratch.from_above.end(), guide_above_.ptr<float>(y), link);
+    guide_left_.at<float>(y, 0) = 0.0F;
+  };
   pool.parallelFor(0, guide.height(), ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
-                     const auto link = [&](const std::uint8_t* a, const std::uint8_t* b)
-                     { return table[colourDifference(guide, a, b)]; };
-                     for (int y = first; y < last; ++y)
-                     {
-                       const std::uint8_t* const row = guide.row(y);
-                       const std::uint8_t* const above = guide.row(y - 1);
-                       auto* const left_links = guide_left_.ptr<float>(y);
-                       auto* const above_links = guide_above_.ptr<float>(y);
-                       for (int x = 0; x < guide.width(); ++x)
-                       {
-                         left_links[x] = x > 0 ? link(row + x - 1, row + x) : 0.0F;
-                         above_links[x] = y > 0 ? link(above + x, row + x) : 0.0F;
-                       }
-                     }
+                     scratch_.use(
+                         [&](Scratch& scratch)
+                         {
+                           scratch.from_left.resize(static_cast<std::size_t>(width));
+                           scratch.from_above.resize(static_cast<std::size_t>(width));
+                           for (int y = first; y < last; ++y)
+                           {
+                             setRow(y, scratch);
+                           }
+                         });
                    });
+  guide_above_.row(0).setTo(0.0F);
 }
+
+/// One system, in which rows and columns are solved in turn.
+class EdgeAwareSmoother::Sweep
+{
+public:
+  Sweep(EdgeAwareSmoother& smoother, const cv::Mat& weight, const cv::Mat& target, float flat_px,
+        ThreadPool& pool, cv::Mat& disparity)
+      : smoother_(smoother), weight_(weight), target_(target), flat_px_(flat_px), pool_(pool),
+        disparity_(disparity), width_(disparity.cols), height_(disparity.rows)
+  {
+    smoother_.link_left_.create(height_, width_ + 1, CV_32FC1);
+    smoother_.link_above_.create(height_ + 1, width_, CV_32FC1);
+    smoother_.link_above_.row(height_).setTo(0.0F);
+    smoother_.solution_.create(disparity.size(), CV_32FC1);
+  }
+
+  /// Every second row given those between them, then those. A band does both but for its last row, which
+  /// waits for the first one of the next band.
+  /// @param update_links of this disparity, before anything changes
+  void solveRows(bool update_links)
+  {
+    pool_.parallelFor(0, height_, BAND_ROWS,
+                      [&](int first, int last)
+                      {
+                        if (update_links)
+                        {
+                          updateLinks(first, last);
+                        }
+                        solveEverySecond(first, last, 2);
+                        solveEverySecond(first + 1, last < height_ ? last - 1 : last, 2);
+                      });
+    const int bands = (height_ - 1) / BAND_ROWS;
+    pool_.parallelFor(0, bands, ROWS_AT_ONCE,
+                      [&](int first, int last)
+                      { solveEverySecond((first + 1) * BAND_ROWS - 1, last * BAND_ROWS, BAND_ROWS); });
+  }
+
+  /// All columns, given the columns beside them before the call.
+  void solveColumns()
+  {
+    pool_.parallelFor(0, width_, COLUMNS_PER_CHUNK,
+                      [&](int first, int last) {
+                        smoother_.scratch_.use([&](Scratch& scratch) { solveColumns(first, last, scratch); });
+                      });
+    cv::swap(smoother_.solution_, disparity_);
+  }
+
+private:
+  void updateLinks(int first, int last)
+  {
+    for (int y = first; y < last; ++y)
+    {
+      linkRow({smoother_.guide_left_.ptr<float>(y), smoother_.guide_above_.ptr<float>(y),
+               disparity_.ptr<float>(y), disparity_.ptr<float>(std::max(y - 1, 0)), width_, flat_px_,
+               smoother_.link_left_.ptr<float>(y), smoother_.link_above_.ptr<float>(y)});
+    }
+  }
+
+  SystemRow rowOf(int y)
+  {
+    return {weight_.ptr<float>(y),
+            target_.ptr<float>(y),
+            smoother_.link_left_.ptr<float>(y),
+            smoother_.link_above_.ptr<float>(y),
+            smoother_.link_above_.ptr<float>(y + 1),
+            disparity_.ptr<float>(std::max(y - 1, 0)),
+            disparity_.ptr<float>(std::min(y + 1, height_ - 1)),
+            disparity_.ptr<float>(y)};
+  }
+
+  /// The rows first, first + step and so on before `last`.
+  void solveEverySecond(int first, int last, int step)
+  {
+    std::array<SystemRow, ROWS_AT_ONCE> rows;
+    int count = 0;
+    for (int y = first; y < last; y += step)
+    {
+      rows[static_cast<std::size_t>(count++)] = rowOf(y);
+    }
+    smoother_.scratch_.use(
+        [&](Scratch& scratch)
+        {
+          scratch.eliminations.resize(std::max(scratch.eliminations.size(), rowScratch(width_)));
+          multiview::solveRows(rows.data(), count, width_, scratch.eliminations.data());
+        });
+  }
+
+  void solveColumns(int first, int last, Scratch& scratch)
+  {
+    const auto count = static_cast<std::size_t>(last - first);
+    const std::size_t size = count * static_cast<std::size_t>(height_);
+    scratch.eliminations.resize(std::max(scratch.eliminations.size(), 2 * size));
+    float* const factors = scratch.eliminations.data();
+    float* const values = factors + size;
+    ColumnStep step;
+    step.first = first;
+    step.last = last;
+    step.width = width_;
+    step.factor_above = step.value_above = smoother_.link_above_.ptr<float>(0);  // 0, as nothing is above
+    step.factor = factors;
+    step.value = values;
+    for (int y = 0; y < height_; ++y)
+    {
+      step.weight = weight_.ptr<float>(y);
+      step.target = target_.ptr<float>(y);
+      step.left = smoother_.link_left_.ptr<float>(y);
+      step.up = smoother_.link_above_.ptr<float>(y);
+      step.down = smoother_.link_above_.ptr<float>(y + 1);
+      step.disparity = disparity_.ptr<float>(y);
+      eliminateColumns(step);
+      step.factor_above = step.factor;
+      step.value_above = step.value;
+      step.factor += count;
+      step.value += count;
+    }
+    const float* below = smoother_.link_above_.ptr<float>(height_) + first;  // 0, as nothing is below
+    for (int y = height_ - 1; y >= 0; --y)
+    {
+      const std::size_t line = count * static_cast<std::size_t>(y);
+      float* const solution = smoother_.solution_.ptr<float>(y) + first;
+      substituteColumns(values + line, factors + line, below, last - first, solution);
+      below = solution;
+    }
+  }
+
+  EdgeAwareSmoother& smoother_;
+  const cv::Mat& weight_;
+  const cv::Mat& target_;
+  float flat_px_;
+  ThreadPool& pool_;
+  cv::Mat& disparity_;
+  int width_;
+  int height_;
+};
 
 void EdgeAwareSmoother::run(const cv::Mat& weight, const cv::Mat& target, const SmoothingSettings& settings,
                             ThreadPool& pool, cv::Mat& disparity)
 {
+  Sweep sweep(*this, weight, target, settings.flat_px, pool, disparity);
   for (int i = 0; i < settings.reweightings; ++i)
   {
-    updateLinks(settings, disparity, pool);
-    for (int sweep = 0; sweep < settings.sweeps; ++sweep)
+    for (int k = 0; k < settings.sweeps; ++k)
     {
-      solveRows(weight, target, 0, pool, disparity);
-      solveRows(weight, target, 1, pool, disparity);
-      solveColumns(weight, target, pool, disparity);
+      sweep.solveRows(k == 0);
+      sweep.solveColumns();
     }
   }
-}
-
-void EdgeAwareSmoother::updateLinks(const SmoothingSettings& settings, const cv::Mat& disparity,
-                                    ThreadPool& pool)
-{
-  link_left_.create(disparity.size(), CV_32FC1);
-  link_above_.create(disparity.size(), CV_32FC1);
-  const float eps = settings.flat_px;
-  pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
-                   [&](int first, int last)
-                   {
-                     const auto robust = [eps](float change)
-                     { return eps / std::sqrt(change * change + eps * eps); };
-                     for (int y = first; y < last; ++y)
-                     {
-                       const auto* const row = disparity.ptr<float>(y);
-                       const auto* const above = disparity.ptr<float>(std::max(y - 1, 0));
-                       const auto* const guide_left = guide_left_.ptr<float>(y);
-                       const auto* const guide_above = guide_above_.ptr<float>(y);
-                       auto* const left = link_left_.ptr<float>(y);
-                       auto* const up = link_above_.ptr<float>(y);
-                       left[0] = 0.0F;
-                       for (int x = 1; x < disparity.cols; ++x)
-                       {
-                         left[x] = guide_left[x] * robust(row[x] - row[x - 1]);
-                       }
-                       for (int x = 0; x < disparity.cols; ++x)
-                       {
-                         up[x] = guide_above[x] * robust(row[x] - above[x]);
-                       }
-                     }
-                   });
-}
-
-/// A row of the system, given the rows above and below.
-struct EdgeAwareSmoother::Row
-{
-  const float* weight;
-  const float* target;
-  const float* left;
-  const float* up;
-  const float* down;
-  float has_down;
-  const float* above;
-  const float* below;
-  float* values;
-};
-
-EdgeAwareSmoother::Row EdgeAwareSmoother::rowOf(const cv::Mat& weight, const cv::Mat& target, int y,
-                                                cv::Mat& disparity) const
-{
-  const bool has_below = y + 1 < disparity.rows;
-  const int next = has_below ? y + 1 : y;
-  return {weight.ptr<float>(y),
-          target.ptr<float>(y),
-          link_left_.ptr<float>(y),
-          link_above_.ptr<float>(y),
-          link_above_.ptr<float>(next),
-          has_below ? 1.0F : 0.0F,
-          disparity.ptr<float>(std::max(y - 1, 0)),
-          disparity.ptr<float>(next),
-          disparity.ptr<float>(y)};
-}
-
-/// Elimination along COUNT rows at once: each step waits for the one before it, so a processor that has
-/// several rows in hand waits less.
-template <int COUNT>
-void EdgeAwareSmoother::solveTogether(const std::array<Row, ROWS_AT_ONCE>& rows, int width,
-                                      std::vector<Elimination>& scratch)
-{
-  std::array<Elimination, COUNT> before{};
-  Elimination* const eliminations = scratch.data();
-  for (int x = 0; x < width; ++x)
-  {
-    for (std::size_t r = 0; r < COUNT; ++r)
-    {
-      const Row& row = rows[r];
-      const float right_link = x + 1 < width ? row.left[x + 1] : 0.0F;
-      const float down_link = row.has_down * row.down[x];
-      const float data = row.weight[x] + TINY_WEIGHT;
-      const float diagonal = data + row.left[x] + right_link + row.up[x] + down_link;
-      const float side = data * row.target[x] + row.up[x] * row.above[x] + down_link * row.below[x];
-      const float inverse = 1.0F / (diagonal - row.left[x] * before[r].factor);
-      before[r].factor = right_link * inverse;
-      before[r].value = (side + row.left[x] * before[r].value) * inverse;
-      eliminations[static_cast<std::size_t>(x) * COUNT + r] = before[r];
-    }
-  }
-  std::array<float, COUNT> next{};
-  for (int x = width - 1; x >= 0; --x)
-  {
-    for (std::size_t r = 0; r < COUNT; ++r)
-    {
-      const Elimination& here = eliminations[static_cast<std::size_t>(x) * COUNT + r];
-      next[r] = here.value + here.factor * next[r];
-      rows[r].values[x] = next[r];
-    }
-  }
-}
-
-/// Every second row, given the rows between them.
-void EdgeAwareSmoother::solveRows(const cv::Mat& weight, const cv::Mat& target, int parity, ThreadPool& pool,
-                                  cv::Mat& disparity) const
-{
-  const int width = disparity.cols;
-  const int pairs = (disparity.rows - parity + 1) / 2;
-  pool.parallelFor(0, pairs, ROWS_PER_CHUNK,
-                   [&](int first, int last)
-                   {
-                     std::vector<Elimination> scratch(ROWS_AT_ONCE * static_cast<std::size_t>(width));
-                     std::array<Row, ROWS_AT_ONCE> rows{};
-                     int pair = first;
-                     for (; pair + ROWS_AT_ONCE <= last; pair += ROWS_AT_ONCE)
-                     {
-                       for (int r = 0; r < ROWS_AT_ONCE; ++r)
-                       {
-                         rows[static_cast<std::size_t>(r)] =
-                             rowOf(weight, target, 2 * (pair + r) + parity, disparity);
-                       }
-                       solveTogether<ROWS_AT_ONCE>(rows, width, scratch);
-                     }
-                     for (; pair < last; ++pair)
-                     {
-                       rows[0] = rowOf(weight, target, 2 * pair + parity, disparity);
-                       solveTogether<1>(rows, width, scratch);
-                     }
-                   });
-}
-
-/// All columns, given the columns beside them before the call.
-void EdgeAwareSmoother::solveColumns(const cv::Mat& weight, const cv::Mat& target, ThreadPool& pool,
-                                     cv::Mat& disparity)
-{
-  const int width = disparity.cols;
-  const int height = disparity.rows;
-  elimination_.create(disparity.size(), CV_32FC1);
-  solution_.create(disparity.size(), CV_32FC1);
-  const auto forward = [&](int y, int first, int last)
-  {
-    const auto* const w = weight.ptr<float>(y);
-    const auto* const t = target.ptr<float>(y);
-    const auto* const left = link_left_.ptr<float>(y);
-    const auto* const up = link_above_.ptr<float>(y);
-    const auto* const row = disparity.ptr<float>(y);
-    const bool has_below = y + 1 < height;
-    const auto* const down = link_above_.ptr<float>(has_below ? y + 1 : y);
-    const float has_down = has_below ? 1.0F : 0.0F;
-    const auto* const before_factor = y > 0 ? elimination_.ptr<float>(y - 1) : up;  // up is 0 there
-    const auto* const before_value = y > 0 ? solution_.ptr<float>(y - 1) : up;
-    auto* const factor = elimination_.ptr<float>(y);
-    auto* const value = solution_.ptr<float>(y);
-    const auto element = [&](int x, float left_value, float right_link, float right_value)
-    {
-      const float data = w[x] + TINY_WEIGHT;
-      const float down_link = has_down * down[x];
-      const float diagonal = data + left[x] + right_link + up[x] + down_link;
-      const float side = data * t[x] + left[x] * left_value + right_link * right_value;
-      const float inverse = 1.0F / (diagonal - up[x] * before_factor[x]);
-      const float above = up[x] * before_value[x];
-      value[x] = (side + above) * inverse;
-      factor[x] = down_link * inverse;
-    };
-    int begin = first;
-    int end = last;
-    if (begin == 0)
-    {
-      element(0, 0.0F, left[1], row[1]);
-      begin = 1;
-    }
-    if (end == width)
-    {
-      --end;
-      element(end, row[end - 1], 0.0F, 0.0F);
-    }
-    for (int x = begin; x < end; ++x)
-    {
-      element(x, row[x - 1], left[x + 1], row[x + 1]);
-    }
-  };
-  pool.parallelFor(0, width, COLUMNS_PER_CHUNK,
-                   [&](int first, int last)
-                   {
-                     for (int y = 0; y < height; ++y)
-                     {
-                       forward(y, first, last);
-                     }
-                     for (int y = height - 2; y >= 0; --y)
-                     {
-                       const auto* const factor = elimination_.ptr<float>(y);
-                       const auto* const below = solution_.ptr<float>(y + 1);
-                       auto* const value = solution_.ptr<float>(y);
-                       for (int x = first; x < last; ++x)
-                       {
-                         value[x] += factor[x] * below[x];
-                       }
-                     }
-                   });
-  cv::swap(solution_, disparity);
 }
 
 }  // namespace light_field_depth::multiview

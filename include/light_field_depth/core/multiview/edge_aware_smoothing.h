@@ -1,11 +1,9 @@
 #ifndef LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_EDGE_AWARE_SMOOTHING_H
 #define LIGHT_FIELD_DEPTH_CORE_MULTIVIEW_EDGE_AWARE_SMOOTHING_H
 
-#include <array>
-#include <vector>
-
 #include <opencv2/core.hpp>
 
+#include "light_field_depth/core/multiview/scratch_pool.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/thread_pool.h"
 
@@ -25,6 +23,9 @@ struct SmoothingSettings
 class EdgeAwareSmoother
 {
 public:
+  EdgeAwareSmoother();
+  ~EdgeAwareSmoother();
+
   /// Computes the part of the links that the image decides.
   void setGuide(const PlanarImage& guide, const SmoothingSettings& settings, ThreadPool& pool);
 
@@ -33,29 +34,15 @@ public:
            cv::Mat& disparity);
 
 private:
-  void updateLinks(const SmoothingSettings& settings, const cv::Mat& disparity, ThreadPool& pool);
-  static constexpr int ROWS_AT_ONCE = 4;
-  struct Row;
-  /// x = value + factor * (the unknown to the right)
-  struct Elimination
-  {
-    float factor = 0.0F;
-    float value = 0.0F;
-  };
-  Row rowOf(const cv::Mat& weight, const cv::Mat& target, int y, cv::Mat& disparity) const;
-  template <int COUNT>
-  static void solveTogether(const std::array<Row, ROWS_AT_ONCE>& rows, int width,
-                            std::vector<Elimination>& scratch);
-  void solveRows(const cv::Mat& weight, const cv::Mat& target, int parity, ThreadPool& pool,
-                 cv::Mat& disparity) const;
-  void solveColumns(const cv::Mat& weight, const cv::Mat& target, ThreadPool& pool, cv::Mat& disparity);
+  struct Scratch;
+  class Sweep;
 
   cv::Mat guide_left_;   // link strength between (x - 1, y) and (x, y) from the image
   cv::Mat guide_above_;  // between (x, y - 1) and (x, y)
-  cv::Mat link_left_;    // with the disparity's part
-  cv::Mat link_above_;
-  cv::Mat elimination_;
+  cv::Mat link_left_;    // with the disparity's part; one more column, and 0 at both ends
+  cv::Mat link_above_;   // one more row, and 0 in the first and the last
   cv::Mat solution_;
+  ScratchPool<Scratch> scratch_;
 };
 
 }  // namespace light_field_depth::multiview
