@@ -26,7 +26,7 @@ using SweepArm = std::vector<SweepView>;
 struct PlaneSweep
 {
   cv::Mat reference;           ///< CV_8UC1
-  std::vector<SweepArm> arms;  ///< none of them empty, at most 6 views each
+  std::vector<SweepArm> arms;  ///< 1 to 4, none of them empty, at most 6 views each
   float first_disparity = 0.0F;
   float disparity_step = 1.0F;
   int labels = 0;
@@ -40,14 +40,11 @@ struct CostVolume
 {
   int labels = 0;
   cv::Size size;
-  std::vector<std::uint16_t> values;
+  cv::Mat values;  ///< CV_16UC1, a row for each label
 
   std::size_t area() const { return static_cast<std::size_t>(size.area()); }
-  const std::uint16_t* cost(int label) const
-  {
-    return values.data() + static_cast<std::size_t>(label) * area();
-  }
-  std::uint16_t* cost(int label) { return values.data() + static_cast<std::size_t>(label) * area(); }
+  const std::uint16_t* cost(int label) const { return values.ptr<std::uint16_t>(label); }
+  std::uint16_t* cost(int label) { return values.ptr<std::uint16_t>(label); }
 };
 
 /// Cost of a grey difference at or above which nothing is learnt, in grey levels. It is also the cost of

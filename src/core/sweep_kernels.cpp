@@ -4,6 +4,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "sweep_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -43,100 +45,208 @@ HWY_INLINE void forEach(std::size_t count, const Body& body)
 }
 
 template <class Body>
-HWY_INLINE void forEachByte(std::size_t count, const Body& body)
-{
-  forEach<Steps<std::uint8_t, 32>>(count, body);
-}
-
-template <class Body>
 HWY_INLINE void forEachWord(std::size_t count, const Body& body)
 {
   forEach<Steps<std::uint16_t, 32>>(count, body);
 }
 
-template <class WordTag>
-HWY_INLINE hn::Vec<WordTag> loadBytes(WordTag words, const std::uint8_t* from)
-{
-  return hn::PromoteTo(words, hn::LoadU(hn::Rebind<std::uint8_t, WordTag>(), from));
-}
+using Bytes = hn::CappedTag<std::uint8_t, SWEEP_ROW_PADDING>;
 
-template <class WordTag>
-HWY_INLINE hn::Vec<WordTag> multiplyHigh(WordTag words, hn::Vec<WordTag> value, std::uint16_t factor)
+/// a + (b - a) * weight / SWEEP_FRACTIONS, rounded.
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE hn::Vec<Bytes> blend(hn::Vec<Bytes> a, hn::Vec<Bytes> b, int weight)
 {
-  return hn::MulHigh(value, hn::Set(words, factor));
+  const int sum = hn::GetLane(a) * (SWEEP_FRACTIONS - weight) + hn::GetLane(b) * weight;
+  return hn::Set(Bytes(), static_cast<std::uint8_t>((sum + SWEEP_FRACTIONS / 2) / SWEEP_FRACTIONS));
 }
-
-void blendBytesSimd(const std::uint8_t* a, const std::uint8_t* b, int weight_b, std::size_t count,
-                    std::uint8_t* to)
+#else
+HWY_INLINE hn::Vec<Bytes> blend(hn::Vec<Bytes> a, hn::Vec<Bytes> b, int weight)
 {
   constexpr int SHIFT = 5;
-  static_assert(BLEND_WEIGHTS == 1 << SHIFT, "the sum is divided by a shift");
-  const auto second = static_cast<std::uint16_t>(weight_b);
-  const auto first = static_cast<std::uint16_t>(BLEND_WEIGHTS - weight_b);
-  forEachWord(count,
-              [=](auto words, std::size_t i) HWY_ATTR
-              {
-                const hn::RebindToSigned<decltype(words)> demotable;
-                const hn::Rebind<std::uint8_t, decltype(words)> bytes;
-                const auto weighed = hn::Add(hn::Mul(loadBytes(words, a + i), hn::Set(words, first)),
-                                             hn::Mul(loadBytes(words, b + i), hn::Set(words, second)));
-                const auto half = hn::Set(words, static_cast<std::uint16_t>(BLEND_WEIGHTS / 2));
-                const auto mean = hn::ShiftRight<SHIFT>(hn::Add(weighed, half));
-                hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(demotable, mean)), bytes, to + i);
-              });
+  static_assert(SWEEP_FRACTIONS == 1 << SHIFT, "the sum is divided by a shift");
+  // Even and odd bytes apart, so that nothing crosses lanes.
+  const hn::Repartition<std::uint16_t, Bytes> words;
+  const auto first = hn::Set(words, static_cast<std::uint16_t>(SWEEP_FRACTIONS - weight));
+  const auto second = hn::Set(words, static_cast<std::uint16_t>(weight));
+  const auto half = hn::Set(words, static_cast<std::uint16_t>(SWEEP_FRACTIONS / 2));
+  const auto low = hn::Set(words, std::uint16_t{0xFF});
+  const auto one = hn::BitCast(words, a);
+  const auto other = hn::BitCast(words, b);
+  const auto even =
+      hn::Add(hn::Mul(hn::And(one, low), first), hn::Add(hn::Mul(hn::And(other, low), second), half));
+  const auto odd = hn::Add(hn::Mul(hn::ShiftRight<8>(one), first),
+                           hn::Add(hn::Mul(hn::ShiftRight<8>(other), second), half));
+  // The mean of the odd ones is moved up by 8 - SHIFT bits; what stays below it is cut off.
+  const auto upper = hn::AndNot(low, hn::ShiftLeft<8 - SHIFT>(odd));
+  return hn::BitCast(Bytes(), hn::Or(hn::ShiftRight<SHIFT>(even), upper));
 }
+#endif
 
-void addDifferencesSimd(const std::uint8_t* a, const std::uint8_t* b, std::uint8_t most, std::size_t count,
-                        std::uint8_t* sums)
+template <bool BETWEEN_COLUMNS, bool BETWEEN_ROWS>
+HWY_INLINE void subtractLikenessOf(const SweptBlock& block, std::uint8_t most,
+                                   const ByteRows<std::uint8_t>& sums)
 {
-  forEachByte(count,
-              [=](auto bytes, std::size_t i) HWY_ATTR
-              {
-                const auto one = hn::LoadU(bytes, a + i);
-                const auto other = hn::LoadU(bytes, b + i);
-                const auto difference = hn::Sub(hn::Max(one, other), hn::Min(one, other));
-                const auto truncated = hn::Min(difference, hn::Set(bytes, most));
-                hn::StoreU(hn::Add(hn::LoadU(bytes, sums + i), truncated), bytes, sums + i);
-              });
+  const Bytes bytes;
+  const int lanes = static_cast<int>(hn::Lanes(bytes));
+  for (int y = 0; y < block.height; ++y)
+  {
+    const std::uint8_t* const reference = block.reference.row(y);
+    const std::uint8_t* const upper = block.view.row(y);
+    const std::uint8_t* const lower = block.view.row(BETWEEN_ROWS ? y + 1 : y);
+    std::uint8_t* const to = sums.row(y);
+    const auto column = [&](int x) HWY_ATTR
+    {
+      const auto value = hn::LoadU(bytes, upper + x);
+      return BETWEEN_ROWS ? blend(value, hn::LoadU(bytes, lower + x), block.fraction_y) : value;
+    };
+    const auto likeness = [&](int x) HWY_ATTR
+    {
+      const auto value = BETWEEN_COLUMNS ? blend(column(x), column(x + 1), block.fraction_x) : column(x);
+      const auto expected = hn::LoadU(bytes, reference + x);
+      const auto difference = hn::Or(hn::SaturatedSub(value, expected), hn::SaturatedSub(expected, value));
+      return hn::SaturatedSub(hn::Set(bytes, most), difference);
+    };
+    int x = 0;
+    for (; x + lanes <= block.width; x += lanes)
+    {
+      hn::StoreU(hn::Sub(hn::LoadU(bytes, to + x), likeness(x)), bytes, to + x);
+    }
+    if (x < block.width)
+    {
+      const auto inside = hn::FirstN(bytes, static_cast<std::size_t>(block.width - x));
+      const auto less = hn::IfThenElseZero(inside, likeness(x));
+      hn::StoreU(hn::Sub(hn::LoadU(bytes, to + x), less), bytes, to + x);
+    }
+  }
 }
 
-void slideColumnsSimd(const std::uint8_t* entering, const std::uint8_t* leaving, std::size_t count,
-                      std::uint16_t* columns)
+void subtractLikenessSimd(const SweptBlock& block, std::uint8_t most, const ByteRows<std::uint8_t>& sums)
 {
-  forEachWord(count,
-              [=](auto words, std::size_t i) HWY_ATTR
-              {
-                const auto change = hn::Sub(loadBytes(words, entering + i), loadBytes(words, leaving + i));
-                hn::StoreU(hn::Add(hn::LoadU(words, columns + i), change), words, columns + i);
-              });
+  if (block.fraction_x != 0 && block.fraction_y != 0)
+  {
+    subtractLikenessOf<true, true>(block, most, sums);
+  }
+  else if (block.fraction_x != 0)
+  {
+    subtractLikenessOf<true, false>(block, most, sums);
+  }
+  else if (block.fraction_y != 0)
+  {
+    subtractLikenessOf<false, true>(block, most, sums);
+  }
+  else
+  {
+    subtractLikenessOf<false, false>(block, most, sums);
+  }
 }
 
-void addWindowsSimd(const std::uint16_t* columns, std::uint16_t factor, std::size_t count,
-                    std::uint16_t* total, std::uint16_t* worst)
+using Words = hn::CappedTag<std::uint16_t, SWEEP_ROW_PADDING / 2>;
+
+HWY_INLINE hn::Vec<Words> loadBytes(const std::uint8_t* from)
 {
-  forEachWord(count,
-              [=](auto words, std::size_t i) HWY_ATTR
-              {
-                const auto outer = hn::Add(hn::LoadU(words, columns + i), hn::LoadU(words, columns + i + 4));
-                const auto inner =
-                    hn::Add(hn::LoadU(words, columns + i + 1), hn::LoadU(words, columns + i + 3));
-                const auto window = hn::Add(hn::Add(outer, inner), hn::LoadU(words, columns + i + 2));
-                const auto value = multiplyHigh(words, window, factor);
-                hn::StoreU(hn::Add(hn::LoadU(words, total + i), value), words, total + i);
-                hn::StoreU(hn::Max(hn::LoadU(words, worst + i), value), words, worst + i);
-              });
+  return hn::PromoteTo(Words(), hn::LoadU(hn::Rebind<std::uint8_t, Words>(), from));
 }
 
-void dropWorstSimd(const std::uint16_t* worst, std::uint16_t divisor, std::size_t count, std::uint16_t* total)
+/// The sums of the columns of the first window.
+HWY_INLINE void startColumns(const ByteRows<const std::uint8_t>& sums, int count, int last_row,
+                             std::uint16_t* columns)
+{
+  const Words words;
+  for (int x = 0; x < count; x += static_cast<int>(hn::Lanes(words)))
+  {
+    auto sum = hn::Zero(words);
+    for (int y = -SWEEP_WINDOW_RADIUS; y <= SWEEP_WINDOW_RADIUS; ++y)
+    {
+      sum = hn::Add(sum, loadBytes(sums.row(std::clamp(y, 0, last_row)) + x));
+    }
+    hn::StoreU(sum, words, columns + x);
+  }
+}
+
+HWY_INLINE void slideColumns(const std::uint8_t* entering, const std::uint8_t* leaving, int count,
+                             std::uint16_t* columns)
+{
+  const Words words;
+  for (int x = 0; x < count; x += static_cast<int>(hn::Lanes(words)))
+  {
+    const auto change = hn::Sub(loadBytes(entering + x), loadBytes(leaving + x));
+    hn::StoreU(hn::Add(hn::LoadU(words, columns + x), change), words, columns + x);
+  }
+}
+
+template <class WordTag>
+HWY_INLINE hn::Vec<WordTag> windowOf(WordTag words, const std::uint16_t* columns, std::uint16_t factor)
+{
+  static_assert(SWEEP_WINDOW_RADIUS == 2, "five columns are added");
+  const auto outer = hn::Add(hn::LoadU(words, columns), hn::LoadU(words, columns + 4));
+  const auto inner = hn::Add(hn::LoadU(words, columns + 1), hn::LoadU(words, columns + 3));
+  const auto window = hn::Add(hn::Add(outer, inner), hn::LoadU(words, columns + 2));
+  return hn::MulHigh(window, hn::Set(words, factor));
+}
+
+/// One row of costs.
+template <std::size_t ARMS>
+HWY_INLINE void meanOfRow(const ArmSums* arms, const std::uint16_t* columns, std::size_t stride,
+                          std::size_t width, std::uint16_t* cost)
 {
   // Exact for divisors of 2 and 3 and totals below 32768.
-  const auto reciprocal = static_cast<std::uint16_t>(0xFFFF / divisor + 1);
-  forEachWord(count,
-              [=](auto words, std::size_t i) HWY_ATTR
+  constexpr auto RECIPROCAL = static_cast<std::uint16_t>(ARMS > 2 ? 0xFFFF / (ARMS - 1) + 1 : 0);
+  forEachWord(width,
+              [=](auto words, std::size_t x) HWY_ATTR
               {
-                const auto rest = hn::Sub(hn::LoadU(words, total + i), hn::LoadU(words, worst + i));
-                hn::StoreU(divisor == 1 ? rest : multiplyHigh(words, rest, reciprocal), words, total + i);
+                auto total = windowOf(words, columns + x, arms[0].factor);
+                auto worst = total;
+                for (std::size_t arm = 1; arm < ARMS; ++arm)
+                {
+                  const auto value = windowOf(words, columns + arm * stride + x, arms[arm].factor);
+                  total = hn::Add(total, value);
+                  worst = hn::Max(worst, value);
+                }
+                const auto rest = ARMS > 1 ? hn::Sub(total, worst) : total;
+                const auto mean = ARMS > 2 ? hn::MulHigh(rest, hn::Set(words, RECIPROCAL)) : rest;
+                hn::StoreU(mean, words, cost + x);
               });
+}
+
+template <std::size_t ARMS>
+HWY_INLINE void meanOfWindowsOf(const ArmSums* arms, int width, int height, std::uint16_t* columns,
+                                std::uint16_t* cost)
+{
+  const std::size_t stride = columnsOfWindows(width);
+  const int count = width + 2 * SWEEP_WINDOW_RADIUS;
+  const int last = height - 1;
+  for (int y = 0; y < height; ++y)
+  {
+    for (std::size_t arm = 0; arm < ARMS; ++arm)
+    {
+      const ByteRows<const std::uint8_t>& sums = arms[arm].sums;
+      if (y == 0)
+      {
+        startColumns(sums, count, last, columns + arm * stride);
+        continue;
+      }
+      slideColumns(sums.row(std::min(y + SWEEP_WINDOW_RADIUS, last)),
+                   sums.row(std::max(y - SWEEP_WINDOW_RADIUS - 1, 0)), count, columns + arm * stride);
+    }
+    meanOfRow<ARMS>(arms, columns, stride, static_cast<std::size_t>(width),
+                    cost + static_cast<std::ptrdiff_t>(y) * width);
+  }
+}
+
+void meanOfWindowsSimd(const ArmSums* arms, std::size_t count_of_arms, int width, int height,
+                       std::uint16_t* columns, std::uint16_t* cost)
+{
+  switch (count_of_arms)
+  {
+    case 1:
+      return meanOfWindowsOf<1>(arms, width, height, columns, cost);
+    case 2:
+      return meanOfWindowsOf<2>(arms, width, height, columns, cost);
+    case 3:
+      return meanOfWindowsOf<3>(arms, width, height, columns, cost);
+    default:
+      return meanOfWindowsOf<4>(arms, width, height, columns, cost);
+  }
 }
 
 void keepBestSimd(const std::uint16_t* cost, std::uint16_t label, std::size_t count, std::uint16_t* best_cost,
@@ -151,16 +261,6 @@ void keepBestSimd(const std::uint16_t* cost, std::uint16_t label, std::size_t co
                 const auto better = hn::Lt(value, best);
                 hn::StoreU(hn::Min(value, best), words, best_cost + i);
                 hn::StoreU(hn::IfThenElse(better, hn::Set(words, label), labels), words, best_label + i);
-              });
-}
-
-void keepLeastSimd(const std::uint16_t* cost, std::size_t count, std::uint16_t* least)
-{
-  forEachWord(count,
-              [=](auto words, std::size_t i) HWY_ATTR
-              {
-                const auto smaller = hn::Min(hn::LoadU(words, cost + i), hn::LoadU(words, least + i));
-                hn::StoreU(smaller, words, least + i);
               });
 }
 
@@ -205,54 +305,32 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth
 {
-HWY_EXPORT(blendBytesSimd);
-HWY_EXPORT(addDifferencesSimd);
-HWY_EXPORT(slideColumnsSimd);
-HWY_EXPORT(addWindowsSimd);
-HWY_EXPORT(dropWorstSimd);
+HWY_EXPORT(subtractLikenessSimd);
+HWY_EXPORT(meanOfWindowsSimd);
 HWY_EXPORT(keepBestSimd);
-HWY_EXPORT(keepLeastSimd);
 HWY_EXPORT(keepRivalSimd);
 HWY_EXPORT(exposeBytesSimd);
 
-void blendBytes(const std::uint8_t* a, const std::uint8_t* b, int weight_b, std::size_t count,
-                std::uint8_t* to)
+void subtractLikeness(const SweptBlock& block, std::uint8_t most, const ByteRows<std::uint8_t>& sums)
 {
-  HWY_DYNAMIC_DISPATCH(blendBytesSimd)(a, b, weight_b, count, to);
+  HWY_DYNAMIC_DISPATCH(subtractLikenessSimd)(block, most, sums);
 }
 
-void addDifferences(const std::uint8_t* a, const std::uint8_t* b, std::uint8_t most, std::size_t count,
-                    std::uint8_t* sums)
+void meanOfWindows(const ArmSums* arms, std::size_t count_of_arms, int width, int height,
+                   std::uint16_t* columns, std::uint16_t* cost)
 {
-  HWY_DYNAMIC_DISPATCH(addDifferencesSimd)(a, b, most, count, sums);
+  HWY_DYNAMIC_DISPATCH(meanOfWindowsSimd)(arms, count_of_arms, width, height, columns, cost);
 }
 
-void slideColumns(const std::uint8_t* entering, const std::uint8_t* leaving, std::size_t count,
-                  std::uint16_t* columns)
+std::size_t columnsOfWindows(int width)
 {
-  HWY_DYNAMIC_DISPATCH(slideColumnsSimd)(entering, leaving, count, columns);
-}
-
-void addWindows(const std::uint16_t* columns, std::uint16_t factor, std::size_t count, std::uint16_t* total,
-                std::uint16_t* worst)
-{
-  HWY_DYNAMIC_DISPATCH(addWindowsSimd)(columns, factor, count, total, worst);
-}
-
-void dropWorst(const std::uint16_t* worst, std::uint16_t divisor, std::size_t count, std::uint16_t* total)
-{
-  HWY_DYNAMIC_DISPATCH(dropWorstSimd)(worst, divisor, count, total);
+  return static_cast<std::size_t>(width) + 2 * SWEEP_WINDOW_RADIUS + SWEEP_ROW_PADDING;
 }
 
 void keepBest(const std::uint16_t* cost, std::uint16_t label, std::size_t count, std::uint16_t* best_cost,
               std::uint16_t* best_label)
 {
   HWY_DYNAMIC_DISPATCH(keepBestSimd)(cost, label, count, best_cost, best_label);
-}
-
-void keepLeast(const std::uint16_t* cost, std::size_t count, std::uint16_t* least)
-{
-  HWY_DYNAMIC_DISPATCH(keepLeastSimd)(cost, count, least);
 }
 
 void keepRival(const std::uint16_t* cost, std::uint16_t label, const std::uint16_t* best_label,

@@ -9,39 +9,63 @@ namespace light_field_depth
 /// The inner loops of plane sweeps and of exposure, each over `count` elements, with the best vector
 /// instructions that the processor has. Results do not depend on these.
 
-/// Weights of blendBytes() add up to this.
-constexpr int BLEND_WEIGHTS = 32;
+/// Fractions of a pixel are given in so many parts.
+constexpr int SWEEP_FRACTIONS = 32;
+/// Bytes beyond the end of a row that the next two may read, and write again with their values.
+constexpr int SWEEP_ROW_PADDING = 64;
+/// Costs are means over windows of so many pixels on both sides of a pixel.
+constexpr int SWEEP_WINDOW_RADIUS = 2;
 
-/// to = a and b weighed with BLEND_WEIGHTS - weight_b and weight_b, rounded.
-void blendBytes(const std::uint8_t* a, const std::uint8_t* b, int weight_b, std::size_t count,
-                std::uint8_t* to);
+/// The rows of a block of bytes.
+template <class Byte>
+struct ByteRows
+{
+  Byte* first;
+  std::ptrdiff_t stride;
 
-/// sums += min(|a - b|, most), modulo 256.
-void addDifferences(const std::uint8_t* a, const std::uint8_t* b, std::uint8_t most, std::size_t count,
-                    std::uint8_t* sums);
+  Byte* row(int y) const { return first + y * stride; }
+};
 
-/// columns += entering - leaving.
-void slideColumns(const std::uint8_t* entering, const std::uint8_t* leaving, std::size_t count,
-                  std::uint16_t* columns);
+/// A part of the reference and what a view shows of it: a pixel of it is seen between one of the view, its
+/// right neighbour and those below them, so many SWEEP_FRACTIONS away from the former. With a fraction of 0
+/// there need be no neighbour. All rows have padding.
+struct SweptBlock
+{
+  ByteRows<const std::uint8_t> reference;
+  ByteRows<const std::uint8_t> view;
+  int fraction_x;
+  int fraction_y;
+  int width;
+  int height;
+};
 
-/// value = (columns[i] + .. + columns[i + 4]) * factor / 65536, rounded down; total += value;
-/// worst = max(worst, value).
-/// @param columns of count + 4 elements whose sums over five are below 65536
-void addWindows(const std::uint16_t* columns, std::uint16_t factor, std::size_t count, std::uint16_t* total,
-                std::uint16_t* worst);
+/// sums -= most - min(|reference - view|, most), modulo 256. Values between rows are rounded, and then those
+/// between columns.
+/// @param sums as many rows, with padding
+void subtractLikeness(const SweptBlock& block, std::uint8_t most, const ByteRows<std::uint8_t>& sums);
 
-/// total = (total - worst) / divisor, rounded down.
-/// @param divisor 1 to 3
-void dropWorst(const std::uint16_t* worst, std::uint16_t divisor, std::size_t count, std::uint16_t* total);
+/// The sums over the views of an arm.
+struct ArmSums
+{
+  /// Of width + 2 * SWEEP_WINDOW_RADIUS columns, with padding; rows outside repeat the outermost.
+  ByteRows<const std::uint8_t> sums;
+  std::uint16_t factor;
+};
+
+/// The mean over the arms, but for the worst of several, of window * factor / 65536, where window sums up the
+/// (2 * SWEEP_WINDOW_RADIUS + 1)^2 bytes about a pixel and stays below 65536. All are rounded down.
+/// @param count_of_arms 1 to 4; the total over the arms is below 32768
+/// @param columns memory of count_of_arms * columnsOfWindows(width) words
+/// @param cost width * height
+void meanOfWindows(const ArmSums* arms, std::size_t count_of_arms, int width, int height,
+                   std::uint16_t* columns, std::uint16_t* cost);
+std::size_t columnsOfWindows(int width);
 
 /// Where cost < best_cost: best_cost = cost, best_label = label.
 void keepBest(const std::uint16_t* cost, std::uint16_t label, std::size_t count, std::uint16_t* best_cost,
               std::uint16_t* best_label);
 
-/// least = min(least, cost).
-void keepLeast(const std::uint16_t* cost, std::size_t count, std::uint16_t* least);
-
-/// The same where |label - best_label| >= distance.
+/// least = min(least, cost) where |label - best_label| >= distance.
 void keepRival(const std::uint16_t* cost, std::uint16_t label, const std::uint16_t* best_label,
                std::uint16_t distance, std::size_t count, std::uint16_t* least);
 
