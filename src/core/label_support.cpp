@@ -1,6 +1,7 @@
 #include "label_support.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -76,11 +77,18 @@ private:
   int margin_;
 };
 
-std::uint16_t median(std::vector<std::uint16_t> values)
+/// The upper one of an even number. Costs take few values, which are quickly counted.
+std::uint16_t median(const std::vector<std::uint16_t>& costs)
 {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  std::array<std::size_t, SWEEP_TRUNCATION* SWEEP_COST_PER_GREY_LEVEL + 1> histogram = {};
+  std::for_each(costs.begin(), costs.end(), [&](std::uint16_t cost) { ++histogram.at(cost); });
+  std::size_t sum = histogram[0];
+  std::uint16_t value = 0;
+  while (sum <= costs.size() / 2)
+  {
+    sum += histogram[++value];
+  }
+  return value;
 }
 
 bool isCertain(const Winners& winners, std::size_t i, const Contrast& contrast)
@@ -118,13 +126,13 @@ std::optional<LabelRange> coreOf(const Winners& winners, const Contrast& contras
   return core;
 }
 
-/// Least cost inside a range of labels.
-std::vector<std::uint16_t> leastCost(const CostVolume& volume, const LabelRange& range)
+/// Of a pixel inside a range of labels.
+int leastCost(const CostVolume& volume, const LabelRange& range, std::size_t pixel)
 {
-  std::vector<std::uint16_t> least(volume.area(), NO_COST);
+  int least = NO_COST;
   for (int label = range.first; label <= range.last; ++label)
   {
-    keepLeast(volume.cost(label), least.size(), least.data());
+    least = std::min<int>(least, volume.cost(label)[pixel]);
   }
   return least;
 }
@@ -230,13 +238,15 @@ LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners
                  const Contrast& contrast)
 {
   constexpr std::size_t LEAST_PATCH_PX = 8;
-  const std::vector<std::uint16_t> inside = leastCost(volume, core);
   std::vector<std::uint8_t> member(volume.area(), 0);
   for (std::size_t i = 0; i < member.size(); ++i)
   {
     const bool outside = winners.label[i] < core.first || winners.label[i] > core.last;
-    const bool clear = contrast.isClear(winners.cost[i], inside[i]) || isCertain(winners, i, contrast);
-    member[i] = outside && clear ? 1 : 0;
+    if (outside &&
+        (isCertain(winners, i, contrast) || contrast.isClear(winners.cost[i], leastCost(volume, core, i))))
+    {
+      member[i] = 1;
+    }
   }
   PatchFinder finder(winners, volume.size, member);
   LabelRange supported = core;
