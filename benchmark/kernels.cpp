@@ -9,6 +9,7 @@
 #include "light_field_depth/core/multiview/cost_kernels.h"
 #include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
+#include "light_field_depth/core/multiview/median.h"
 #include "light_field_depth/core/multiview/path_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
 #include "light_field_depth/core/multiview/smoothing_kernels.h"
@@ -309,6 +310,34 @@ Kernel halving()
           PIXELS * (4.0 * CHANNELS + 1.0), with(halveRow),  with(halveRowPlain)};
 }
 
+Kernel medians()
+{
+  struct Labels
+  {
+    std::vector<std::uint8_t> bytes = randomBytes(MEDIAN_SIZE * STRIDE, 26);
+    std::vector<float> labels = std::vector<float>(bytes.begin(), bytes.end());
+    std::vector<float> scratch = std::vector<float>(medianScratch(WIDTH));
+    std::vector<float> medians = std::vector<float>(PIXELS);
+    MedianRow row;
+
+    Labels()
+    {
+      for (std::size_t i = 0; i < row.rows.size(); ++i)
+      {
+        row.rows[i] = &labels[i * STRIDE];
+      }
+      row.width = WIDTH;
+      row.sorted_columns = scratch.data();
+      row.medians = medians.data();
+    }
+  };
+  const auto labels = std::make_shared<Labels>();
+  const auto with = [&](auto kernel)
+  { return calling(labels, [kernel](Labels& data) { kernel(data.row); }); };
+  return {"median of 5 x 5",   "pixel", PIXELS, PIXELS * (MEDIAN_SIZE + 1.0) * sizeof(float), with(medianRow),
+          with(medianRowPlain)};
+}
+
 /// Rows of a system, two above each other that are not solved between those that are.
 struct SmoothingData
 {
@@ -378,8 +407,8 @@ Kernel columnElimination()
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(), armCost(), visibleCost(), transposition(), tilePaths(),        labelSelection(),
-          linearization(), warping(), halving(),     rowSolution(),   columnElimination()};
+  return {interpolation(), armCost(), visibleCost(), transposition(), tilePaths(),   labelSelection(),
+          linearization(), warping(), halving(),     medians(),       rowSolution(), columnElimination()};
 }
 
 }  // namespace light_field_depth::benchmark

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <opencv2/imgproc.hpp>
-
 #include "light_field_depth/core/multiview/confidence.h"
 
 namespace light_field_depth::multiview
@@ -18,7 +16,6 @@ constexpr float BAND_MARGIN_LABELS = 4.0F;
 /// The same for the first search of a frame that follows another one, whose objects may have moved.
 constexpr int FOLLOWED_REACH_PX = 12;
 constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
-constexpr int MEDIAN_SIZE = 5;
 /// Distance of the labels that SolverSettings::paths is meant for.
 constexpr float UNIT_LABEL_STEP_PX = 0.125F;
 /// A difference of grey values compared with the sum of the differences of three channels.
@@ -30,23 +27,6 @@ void save(const RunContext& context, const char* name, const cv::Mat& values)
   {
     context.save_intermediate(name, values);
   }
-}
-
-/// cv::medianBlur, in bands of rows on the pool.
-void medianOfRows(const cv::Mat& values, ThreadPool& pool, cv::Mat& medians)
-{
-  constexpr int rows_per_chunk = 64;
-  constexpr int radius = MEDIAN_SIZE / 2;
-  medians.create(values.size(), values.type());
-  pool.parallelFor(0, values.rows, rows_per_chunk,
-                   [&](int first, int last)
-                   {
-                     const int above = std::max(first - radius, 0);
-                     const int below = std::min(last + radius, values.rows);
-                     cv::Mat band;
-                     cv::medianBlur(values.rowRange(above, below), band, MEDIAN_SIZE);
-                     band.rowRange(first - above, last - above).copyTo(medians.rowRange(first, last));
-                   });
 }
 
 }  // namespace
@@ -223,10 +203,10 @@ void Solver::aggregate(const SolverSettings& settings, RunContext& context)
     aggregator_.aggregate(volume_, paths_, context.pool, label_);
   }
   const StageTimer timer(context, "median");
-  label_.convertTo(scratch_, CV_32F, labels_.step_px, labels_.first_px);
-  medianOfRows(scratch_, context.pool, disparity_);
+  median_.run(label_, labels_, context.pool, disparity_);
   if (settings.keep_thin_structures)
   {
+    label_.convertTo(scratch_, CV_32F, labels_.step_px, labels_.first_px);
     keepThinStructures(guide(), scratch_, settings.thin_structures, context.pool, disparity_);
   }
 }

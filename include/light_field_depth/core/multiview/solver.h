@@ -14,6 +14,7 @@
 #include "light_field_depth/core/multiview/edge_side.h"
 #include "light_field_depth/core/multiview/label_bands.h"
 #include "light_field_depth/core/multiview/label_space.h"
+#include "light_field_depth/core/multiview/median.h"
 #include "light_field_depth/core/multiview/path_aggregation.h"
 #include "light_field_depth/core/multiview/refinement.h"
 #include "light_field_depth/core/multiview/scene_watch.h"
@@ -103,6 +104,7 @@ private:
   SceneWatch watch_;
   std::vector<std::uint8_t> changed_tiles_;
   PathAggregator aggregator_;
+  MedianFilter median_;
   BackgroundFusion background_;
   VisibleSurfaces surfaces_;
   Linearizer linearizer_;
