@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "light_field_depth/core/multiview/background_kernels.h"
 #include "light_field_depth/core/multiview/cost_kernels.h"
 #include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
@@ -338,6 +339,55 @@ Kernel medians()
           with(medianRowPlain)};
 }
 
+/// A row of pixels whose labels change a few times in each tile.
+struct SupportData
+{
+  std::vector<std::uint8_t> costs = randomBytes(3 * static_cast<std::size_t>(TILE_PX) * LABELS, 200);
+  std::vector<std::int16_t> labels = std::vector<std::int16_t>(PIXELS);
+  std::vector<std::int16_t> taken = labels;
+  std::vector<int> counts = std::vector<int>(LABELS);
+  SupportLine line;
+
+  SupportData()
+  {
+    constexpr std::size_t run = 12;
+    for (std::size_t x = 0; x < PIXELS; ++x)
+    {
+      labels[x] = static_cast<std::int16_t>(x / run % LABELS);
+    }
+    for (std::size_t i = 0; i < line.here.size(); ++i)
+    {
+      line.here[i] = {&costs[i * TILE_PX * LABELS], {0, LABELS}};
+    }
+    line.left = line.right = line.here;
+    line.distance = 2;
+  }
+};
+
+Kernel support()
+{
+  const auto data = std::make_shared<SupportData>();
+  const auto with = [&](auto kernel)
+  {
+    return calling(data,
+                   [kernel](SupportData& held)
+                   {
+                     held.taken = held.labels;
+                     for (std::size_t x = 0; x < PIXELS; x += TILE_PX)
+                     {
+                       kernel(held.line, &held.taken[x], held.counts.data());
+                     }
+                   });
+  };
+  constexpr double costs_per_pixel = 27.0;
+  return {"support of the labels",
+          "pixel",
+          PIXELS,
+          PIXELS * (costs_per_pixel + sizeof(std::int16_t)),
+          with(countSupported),
+          with(countSupportedPlain)};
+}
+
 /// Rows of a system, two above each other that are not solved between those that are.
 struct SmoothingData
 {
@@ -407,8 +457,9 @@ Kernel columnElimination()
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(), armCost(), visibleCost(), transposition(), tilePaths(),   labelSelection(),
-          linearization(), warping(), halving(),     medians(),       rowSolution(), columnElimination()};
+  return {interpolation(),  armCost(),       visibleCost(),      transposition(), tilePaths(),
+          labelSelection(), linearization(), warping(),          halving(),       medians(),
+          support(),        rowSolution(),   columnElimination()};
 }
 
 }  // namespace light_field_depth::benchmark

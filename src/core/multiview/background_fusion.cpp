@@ -1,88 +1,76 @@
 #include "light_field_depth/core/multiview/background_fusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <numeric>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
 
+#include "light_field_depth/core/multiview/background_kernels.h"
+
 namespace light_field_depth::multiview
 {
 namespace
 {
 constexpr int BLOCK_PX = 2 * TILE_PX;
+constexpr int TILES_PER_BLOCK = BLOCK_PX / TILE_PX;
 constexpr int ROWS_PER_CHUNK = 16;
 /// With fewer believed pixels about a block nothing is charged there.
 constexpr int MIN_BELIEVED = 30;
-constexpr std::int16_t NONE = -1;
+
+/// The row y of the tile in a column of tiles; clear where there is none.
+TileLine lineAt(const CostVolume& volume, int tile_column, int y)
+{
+  if (tile_column < 0 || tile_column >= volume.bands.columns() || y < 0 || y >= volume.height)
+  {
+    return {};
+  }
+  const LabelBand& band = volume.bands.at(y / TILE_PX, tile_column);
+  return {volume.values.data() + volume.index(tile_column * TILE_PX, y, band.first), band};
+}
+
+SupportLine::Lines linesAbout(const CostVolume& volume, int tile_column, int y)
+{
+  return {lineAt(volume, tile_column, y - 1), lineAt(volume, tile_column, y),
+          lineAt(volume, tile_column, y + 1)};
+}
 
 /// The cost between two labels of the pixel's band.
 float interpolatedCost(const CostVolume& volume, int x, int y, float label)
 {
-  const LabelBand& band = volume.bandAt(x, y);
-  if (band.count == 1)
-  {
-    return volume.at(x, y, band.first);
-  }
-  const float inside = std::clamp(label, static_cast<float>(band.first), static_cast<float>(band.end() - 1));
-  const int below = std::min(static_cast<int>(inside), band.end() - 2);
-  const float part = inside - static_cast<float>(below);
-  const std::size_t index = volume.index(x, y, below);
-  return static_cast<float>(volume.values[index]) * (1.0F - part) +
-         static_cast<float>(volume.values[index + TILE_PX]) * part;
+  TileLine line = lineAt(volume, x / TILE_PX, y);
+  line.costs += x % TILE_PX;
+  float cost = 0.0F;
+  std::int16_t rounded = NO_LABEL;
+  findLabelCostsPlain({line, &label, 1, &cost, &rounded});
+  return cost;
 }
 
-/// Whether a label and those `distance` away on both sides are in the bands of 3 x 3 pixels.
-bool isComparable(const CostVolume& volume, int x, int y, int label, int distance)
+/// The sum over 3 x 3 pixels that a mean must exceed, given the mean over its 18 differences.
+int thresholdOfSum(float mean)
 {
-  if (x < 1 || y < 1 || x + 1 >= volume.width || y + 1 >= volume.height)
+  constexpr float differences = 18.0F;
+  const auto exceeds = [&](int sum) { return static_cast<float>(sum) / differences > mean; };
+  int threshold = -NO_SUPPORT;
+  while (threshold < NO_SUPPORT && !exceeds(threshold + 1))
   {
-    return false;
+    ++threshold;
   }
-  const auto holds = [&](int at_x, int at_y)
-  {
-    const LabelBand& band = volume.bandAt(at_x, at_y);
-    return band.contains(label - distance) && band.contains(label + distance);
-  };
-  return holds(x - 1, y - 1) && holds(x + 1, y - 1) && holds(x - 1, y + 1) && holds(x + 1, y + 1);
+  return threshold;
 }
 
-/// The mean over 3 x 3 pixels of how much worse the labels `distance` away on both sides are.
-float support(const CostVolume& volume, int x, int y, int label, int distance)
-{
-  int sum = 0;
-  for (int dy = -1; dy <= 1; ++dy)
-  {
-    for (int dx = -1; dx <= 1; ++dx)
-    {
-      const auto cost = [&](int other) { return static_cast<int>(volume.at(x + dx, y + dy, other)); };
-      sum += cost(label - distance) + cost(label + distance) - 2 * cost(label);
-    }
-  }
-  return static_cast<float>(sum) / 18.0F;
-}
-
-/// What the labels from `first` on are charged: charge[i] for label first + i.
-struct Charge
-{
-  const std::vector<std::uint8_t>& charge;
-  int first;
-};
-
-/// Adds a charge to the costs of a pixel and of `count - 1` more on its right in the same tile.
-void addSaturated(const Charge& charge, int x, int y, int count, CostVolume& volume)
+/// Adds charge[i] to the costs of a pixel's labels first + i.
+void addSaturated(const std::vector<std::uint8_t>& charge, int first, int x, int y, CostVolume& volume)
 {
   const LabelBand& band = volume.bandAt(x, y);
-  for (int label = std::max(charge.first, band.first); label < band.end(); ++label)
+  for (int label = std::max(first, band.first); label < band.end(); ++label)
   {
-    const int added = charge.charge[static_cast<std::size_t>(label - charge.first)];
-    std::uint8_t* const costs = volume.values.data() + volume.index(x, y, label);
-    for (int i = 0; i < count; ++i)
-    {
-      costs[i] = static_cast<std::uint8_t>(std::min(costs[i] + added, 255));
-    }
+    std::uint8_t& cost = volume.values[volume.index(x, y, label)];
+    cost = static_cast<std::uint8_t>(std::min(cost + charge[static_cast<std::size_t>(label - first)], 255));
   }
 }
 
@@ -98,13 +86,13 @@ std::vector<std::uint8_t> ramp(int labels, float slack, float per_label, int lim
   return charge;
 }
 
-/// The label below which a share of the counts lies, or NONE if there are too few.
+/// The label below which a share of the counts lies, or NO_LABEL if there are too few.
 std::int16_t lowestBelieved(const std::vector<int>& counts, float quantile)
 {
   const int total = std::accumulate(counts.begin(), counts.end(), 0);
   if (total < MIN_BELIEVED)
   {
-    return NONE;
+    return NO_LABEL;
   }
   const float limit = quantile * static_cast<float>(total);
   std::size_t label = 0;
@@ -115,6 +103,14 @@ std::int16_t lowestBelieved(const std::vector<int>& counts, float quantile)
     below += counts[label];
   }
   return static_cast<std::int16_t>(label);
+}
+
+/// Pixels of a row that are passed over at once where nothing is marked.
+constexpr int RUN_PX = 64;
+
+bool isMarked(const std::uint8_t* marks, int count)
+{
+  return std::memchr(marks, 1, static_cast<std::size_t>(count)) != nullptr;
 }
 
 /// What a region costs in one of the two maps.
@@ -131,7 +127,7 @@ struct Energy
 float BackgroundFusion::biasAt(int x, int y, float label) const
 {
   const std::int16_t floor = floor_.at<std::int16_t>(y / BLOCK_PX, x / BLOCK_PX);
-  return floor == NONE
+  return floor == NO_LABEL
              ? 0.0F
              : std::clamp(settings_.bias_per_px * labels_.step_px * (label - static_cast<float>(floor)), 0.0F,
                           static_cast<float>(settings_.max_bias));
@@ -143,9 +139,11 @@ void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparit
   labels_ = labels;
   settings_ = settings;
   moved_.create(disparity.size(), CV_16SC1);
-  moved_.setTo(NONE);
-  disparity.convertTo(label_, CV_32F, 1.0 / labels.step_px, -labels.first_px / labels.step_px);
-  findFloors(volume, pool);
+  label_.create(disparity.size(), CV_32FC1);
+  data_cost_.create(disparity.size(), CV_32FC1);
+  floor_.create((volume.height + BLOCK_PX - 1) / BLOCK_PX, (volume.width + BLOCK_PX - 1) / BLOCK_PX,
+                CV_16SC1);
+  countBelieved(disparity, volume, pool);
   const auto charge =
       ramp(volume.bands.labels(), 0.0F, settings.bias_per_px * labels.step_px, settings.max_bias);
   pool.parallelFor(0, floor_.rows, 1,
@@ -153,6 +151,7 @@ void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparit
                    {
                      for (int block_y = first; block_y < last; ++block_y)
                      {
+                       chooseFloors(block_y, volume.bands.labels());
                        for (int block_x = 0; block_x < floor_.cols; ++block_x)
                        {
                          chargeBlock(block_x, block_y, charge, volume);
@@ -161,87 +160,113 @@ void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparit
                    });
 }
 
+/// The labels that the images support, counted for each block in each row of tiles.
+void BackgroundFusion::countBelieved(const cv::Mat& disparity, const CostVolume& volume, ThreadPool& pool)
+{
+  const auto label_count = static_cast<std::size_t>(volume.bands.labels());
+  const auto block_columns = static_cast<std::size_t>(floor_.cols);
+  believed_.resize(static_cast<std::size_t>(volume.bands.rows()) * block_columns * label_count);
+  const int threshold = thresholdOfSum(settings_.min_support);
+  const auto count_row = [&](int tile_row)
+  {
+    const cv::Range rows(tile_row * TILE_PX, std::min((tile_row + 1) * TILE_PX, volume.height));
+    moved_.rowRange(rows).setTo(NO_LABEL);
+    cv::Mat labels = label_.rowRange(rows);
+    disparity.rowRange(rows).convertTo(labels, CV_32F, 1.0 / labels_.step_px,
+                                       -labels_.first_px / labels_.step_px);
+    int* const counts = &believed_[static_cast<std::size_t>(tile_row) * block_columns * label_count];
+    std::fill_n(counts, block_columns * label_count, 0);
+    for (int y = rows.start; y < rows.end; ++y)
+    {
+      for (int column = 0; column < volume.bands.columns(); ++column)
+      {
+        const auto block = static_cast<std::size_t>(column / TILES_PER_BLOCK);
+        countBelieved(column, y, threshold, volume, counts + block * label_count);
+      }
+    }
+  };
+  pool.parallelFor(0, volume.bands.rows(), 1,
+                   [&](int first, int last)
+                   {
+                     for (int tile_row = first; tile_row < last; ++tile_row)
+                     {
+                       count_row(tile_row);
+                     }
+                   });
+}
+
+/// In one row of a tile; finds the costs of its labels as well.
+void BackgroundFusion::countBelieved(int tile_column, int y, int threshold, const CostVolume& volume,
+                                     int* counts)
+{
+  const int x = tile_column * TILE_PX;
+  const int width = std::min(TILE_PX, volume.width - x);
+  std::array<std::int16_t, TILE_PX> labels;
+  labels.fill(NO_LABEL);
+  findLabelCosts({lineAt(volume, tile_column, y), label_.ptr<float>(y) + x, width,
+                  data_cost_.ptr<float>(y) + x, labels.data()});
+  if (y == 0 || y + 1 == volume.height)
+  {
+    return;
+  }
+  if (x + width == volume.width)
+  {
+    labels[static_cast<std::size_t>(width - 1)] = NO_LABEL;  // has no right neighbour
+  }
+  SupportLine support;
+  support.here = linesAbout(volume, tile_column, y);
+  support.left = linesAbout(volume, tile_column - 1, y);
+  support.right = linesAbout(volume, tile_column + 1, y);
+  support.distance = std::max(1, cvRound(settings_.support_distance_px / labels_.step_px));
+  support.threshold = threshold;
+  countSupported(support, labels.data(), counts);
+}
+
+/// The lowest label, but for a few, that the images support about each block of a row.
+void BackgroundFusion::chooseFloors(int block_y, int labels)
+{
+  const auto label_count = static_cast<std::size_t>(labels);
+  std::vector<int> about(label_count);
+  const int tile_rows = static_cast<int>(believed_.size() / label_count) / floor_.cols;
+  const int first_row = std::max(block_y - 1, 0) * TILES_PER_BLOCK;
+  const int last_row = std::min((block_y + 2) * TILES_PER_BLOCK, tile_rows);
+  for (int block_x = 0; block_x < floor_.cols; ++block_x)
+  {
+    std::fill(about.begin(), about.end(), 0);
+    for (int row = first_row; row < last_row; ++row)
+    {
+      for (int x = std::max(block_x - 1, 0); x <= std::min(block_x + 1, floor_.cols - 1); ++x)
+      {
+        const auto block = static_cast<std::ptrdiff_t>(row * floor_.cols + x);
+        const auto counts = believed_.begin() + block * labels;
+        std::transform(about.begin(), about.end(), counts, about.begin(), std::plus<>());
+      }
+    }
+    floor_.at<std::int16_t>(block_y, block_x) = lowestBelieved(about, settings_.floor_quantile);
+  }
+}
+
 void BackgroundFusion::chargeBlock(int block_x, int block_y, const std::vector<std::uint8_t>& charge,
                                    CostVolume& volume) const
 {
   const std::int16_t floor = floor_.at<std::int16_t>(block_y, block_x);
-  if (floor == NONE)
+  if (floor == NO_LABEL)
   {
     return;
   }
-  const int last_x = std::min((block_x + 1) * BLOCK_PX, volume.width);
+  const int last_column = std::min((block_x + 1) * TILES_PER_BLOCK, volume.bands.columns());
   const int last_y = std::min((block_y + 1) * BLOCK_PX, volume.height);
-  for (int y = block_y * BLOCK_PX; y < last_y; ++y)
+  for (int column = block_x * TILES_PER_BLOCK; column < last_column; ++column)
   {
-    for (int x = block_x * BLOCK_PX; x < last_x; x += TILE_PX)
+    for (int y = block_y * BLOCK_PX; y < last_y; ++y)
     {
-      addSaturated({charge, floor}, x, y, std::min(TILE_PX, last_x - x), volume);
-    }
-  }
-}
-
-/// The lowest label, but for a few, that the images support about every block.
-void BackgroundFusion::findFloors(const CostVolume& volume, ThreadPool& pool)
-{
-  data_cost_.create(label_.size(), CV_32FC1);
-  supported_.create(label_.size(), CV_16SC1);
-  const int distance = std::max(1, cvRound(settings_.support_distance_px / labels_.step_px));
-  const auto believed = [&](int x, int y)
-  {
-    const int label = cvRound(label_.at<float>(y, x));
-    return isComparable(volume, x, y, label, distance) &&
-                   support(volume, x, y, label, distance) > settings_.min_support
-               ? static_cast<std::int16_t>(label)
-               : NONE;
-  };
-  pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
-                   [&](int first, int last)
-                   {
-                     for (int y = first; y < last; ++y)
-                     {
-                       for (int x = 0; x < volume.width; ++x)
-                       {
-                         data_cost_.at<float>(y, x) = interpolatedCost(volume, x, y, label_.at<float>(y, x));
-                         supported_.at<std::int16_t>(y, x) = believed(x, y);
-                       }
-                     }
-                   });
-  floor_.create((volume.height + BLOCK_PX - 1) / BLOCK_PX, (volume.width + BLOCK_PX - 1) / BLOCK_PX,
-                CV_16SC1);
-  chooseFloors(volume.bands.labels());
-}
-
-void BackgroundFusion::chooseFloors(int labels)
-{
-  const auto label_count = static_cast<std::size_t>(labels);
-  std::vector<int> counts(floor_.total() * label_count);
-  const auto counts_of = [&](int block_x, int block_y)
-  { return counts.begin() + static_cast<std::ptrdiff_t>(label_count) * (block_y * floor_.cols + block_x); };
-  for (int y = 0; y < supported_.rows; ++y)
-  {
-    for (int x = 0; x < supported_.cols; ++x)
-    {
-      const std::int16_t label = supported_.at<std::int16_t>(y, x);
-      if (label != NONE)
+      const LabelBand& band = volume.bands.at(y / TILE_PX, column);
+      const int first = std::max<int>(floor, band.first);
+      if (first < band.end())
       {
-        ++*(counts_of(x / BLOCK_PX, y / BLOCK_PX) + label);
+        addCharges(&charge[static_cast<std::size_t>(first - floor)], band.end() - first,
+                   &volume.values[volume.index(column * TILE_PX, y, first)]);
       }
-    }
-  }
-  std::vector<int> about(label_count);
-  for (int block_y = 0; block_y < floor_.rows; ++block_y)
-  {
-    for (int block_x = 0; block_x < floor_.cols; ++block_x)
-    {
-      std::fill(about.begin(), about.end(), 0);
-      for (int y = std::max(block_y - 1, 0); y <= std::min(block_y + 1, floor_.rows - 1); ++y)
-      {
-        for (int x = std::max(block_x - 1, 0); x <= std::min(block_x + 1, floor_.cols - 1); ++x)
-        {
-          std::transform(about.begin(), about.end(), counts_of(x, y), about.begin(), std::plus<>());
-        }
-      }
-      floor_.at<std::int16_t>(block_y, block_x) = lowestBelieved(about, settings_.floor_quantile);
     }
   }
 }
@@ -263,27 +288,70 @@ struct BackgroundFusion::Region
 };
 
 void BackgroundFusion::fuse(const CostVolume& volume, const PathAggregator& paths,
-                            const PathSettings& path_settings, const cv::Mat& background, cv::Mat& disparity)
+                            const PathSettings& path_settings, const cv::Mat& background, ThreadPool& pool,
+                            cv::Mat& disparity)
 {
-  const cv::Mat farther = disparity - background > settings_.min_drop_px;
-  const int count = cv::connectedComponents(farther, regions_, 4, CV_32S);
-  if (count == 1)
+  if (!markFarther(background, pool, disparity))
   {
     return;
   }
+  const int count = cv::connectedComponents(farther_, regions_, 4, CV_32S);
   std::vector<Region> regions(static_cast<std::size_t>(count));
   addData(volume, background, regions);
   addLinks(paths, path_settings, background, regions);
-  for (int y = 0; y < volume.height; ++y)
-  {
-    for (int x = 0; x < volume.width; ++x)
-    {
-      const std::size_t region = regionAt(x, y);
-      if (region != 0 && regions[region].accepted(settings_))
+  forFarther(
+      [&](int x, int y)
       {
-        disparity.at<float>(y, x) = background.at<float>(y, x);
-        const int label = cvRound(labels_.label(background.at<float>(y, x)));
-        moved_.at<std::int16_t>(y, x) = static_cast<std::int16_t>(std::max(0, label));
+        if (regions[regionAt(x, y)].accepted(settings_))
+        {
+          disparity.at<float>(y, x) = background.at<float>(y, x);
+          const int label = cvRound(labels_.label(background.at<float>(y, x)));
+          moved_.at<std::int16_t>(y, x) = static_cast<std::int16_t>(std::max(0, label));
+        }
+      });
+}
+
+/// Where the second search is farther.
+/// @return whether it is anywhere
+bool BackgroundFusion::markFarther(const cv::Mat& background, ThreadPool& pool, const cv::Mat& disparity)
+{
+  farther_.create(disparity.size(), CV_8UC1);
+  marked_rows_.assign(static_cast<std::size_t>(disparity.rows), 0);
+  pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     for (int y = first; y < last; ++y)
+                     {
+                       const auto* const here = disparity.ptr<float>(y);
+                       const auto* const there = background.ptr<float>(y);
+                       auto* const farther = farther_.ptr<std::uint8_t>(y);
+                       for (int x = 0; x < disparity.cols; ++x)
+                       {
+                         farther[x] = static_cast<std::uint8_t>(here[x] - there[x] > settings_.min_drop_px);
+                       }
+                       marked_rows_[static_cast<std::size_t>(y)] =
+                           static_cast<std::uint8_t>(isMarked(farther, disparity.cols));
+                     }
+                   });
+  return std::find(marked_rows_.begin(), marked_rows_.end(), 1) != marked_rows_.end();
+}
+
+/// Calls body(x, y) for the pixels in regions, row by row. They are few.
+template <class Body>
+void BackgroundFusion::forFarther(const Body& body) const
+{
+  for (int y = 0; y < farther_.rows; ++y)
+  {
+    const auto* const farther = farther_.ptr<std::uint8_t>(y);
+    for (int begin = 0; begin < farther_.cols && isRowMarked(y); begin += RUN_PX)
+    {
+      const int end = std::min(begin + RUN_PX, farther_.cols);
+      for (int x = begin; x < end && isMarked(farther + begin, end - begin); ++x)
+      {
+        if (farther[x] != 0)
+        {
+          body(x, y);
+        }
       }
     }
   }
@@ -292,21 +360,15 @@ void BackgroundFusion::fuse(const CostVolume& volume, const PathAggregator& path
 void BackgroundFusion::addData(const CostVolume& volume, const cv::Mat& background,
                                std::vector<Region>& regions) const
 {
-  for (int y = 0; y < volume.height; ++y)
-  {
-    for (int x = 0; x < volume.width; ++x)
-    {
-      const std::size_t region = regionAt(x, y);
-      if (region != 0)
+  forFarther(
+      [&](int x, int y)
       {
+        Region& region = regions[regionAt(x, y)];
         const float label = labels_.label(background.at<float>(y, x));
-        const float cost = interpolatedCost(volume, x, y, label);
-        ++regions[region].pixels;
-        regions[region].kept.data += data_cost_.at<float>(y, x);
-        regions[region].moved.data += cost - biasAt(x, y, label);
-      }
-    }
-  }
+        ++region.pixels;
+        region.kept.data += data_cost_.at<float>(y, x);
+        region.moved.data += interpolatedCost(volume, x, y, label) - biasAt(x, y, label);
+      });
 }
 
 /// The links between neighbours of which at least one lies in a region.
@@ -326,18 +388,32 @@ void BackgroundFusion::addLinks(const PathAggregator& paths, const PathSettings&
     regions[region].kept.links += cost(label_.at<float>(y, x) - label_.at<float>(other_y, other_x));
     regions[region].moved.links += cost(moved_label(x, y) - moved_label(other_x, other_y));
   };
+  const auto add_of = [&](int x, int y)
+  {
+    const bool here = regionAt(x, y) != 0;
+    if (x > 0 && (here || regionAt(x - 1, y) != 0))
+    {
+      add(x, y, x - 1, y, paths.stepLeft(x, y));
+    }
+    if (y > 0 && (here || regionAt(x, y - 1) != 0))
+    {
+      add(x, y, x, y - 1, paths.stepAbove(x, y));
+    }
+  };
   for (int y = 0; y < label_.rows; ++y)
   {
-    for (int x = 0; x < label_.cols; ++x)
+    const int above = std::max(y - 1, 0);
+    for (int begin = 0; begin < label_.cols && (isRowMarked(y) || isRowMarked(above)); begin += RUN_PX)
     {
-      const std::size_t here = regionAt(x, y);
-      if (x > 0 && (here != 0 || regionAt(x - 1, y) != 0))
+      const int end = std::min(begin + RUN_PX, label_.cols);
+      const int before = std::max(begin - 1, 0);
+      if (isMarked(farther_.ptr<std::uint8_t>(y) + before, end - before) ||
+          isMarked(farther_.ptr<std::uint8_t>(above) + begin, end - begin))
       {
-        add(x, y, x - 1, y, paths.stepLeft(x, y));
-      }
-      if (y > 0 && (here != 0 || regionAt(x, y - 1) != 0))
-      {
-        add(x, y, x, y - 1, paths.stepAbove(x, y));
+        for (int x = begin; x < end; ++x)
+        {
+          add_of(x, y);
+        }
       }
     }
   }
@@ -355,9 +431,9 @@ void BackgroundFusion::hold(ThreadPool& pool, CostVolume& volume) const
                        for (int x = 0; x < volume.width; ++x)
                        {
                          const std::int16_t label = moved_.at<std::int16_t>(y, x);
-                         if (label != NONE)
+                         if (label != NO_LABEL)
                          {
-                           addSaturated({charge, label}, x, y, 1, volume);
+                           addSaturated(charge, label, x, y, volume);
                          }
                        }
                      }

@@ -193,7 +193,7 @@ void Solver::fuseBackground(const SolverSettings& settings, RunContext& context)
   const StageTimer timer(context, "background");
   cv::swap(disparity_, searched_);
   save(context, "multiview_background", searched_);
-  background_.fuse(volume_, aggregator_, paths_, searched_, disparity_);
+  background_.fuse(volume_, aggregator_, paths_, searched_, context.pool, disparity_);
 }
 
 void Solver::aggregate(const SolverSettings& settings, RunContext& context)

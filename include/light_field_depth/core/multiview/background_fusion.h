@@ -48,17 +48,22 @@ public:
   /// @param background CV_32FC1, px, the second search
   /// @param disparity the first search on entry, the fused map on return
   void fuse(const CostVolume& volume, const PathAggregator& paths, const PathSettings& path_settings,
-            const cv::Mat& background, cv::Mat& disparity);
+            const cv::Mat& background, ThreadPool& pool, cv::Mat& disparity);
 
   /// Charges in a later volume for labels nearer than what was moved back.
   void hold(ThreadPool& pool, CostVolume& volume) const;
 
 private:
   struct Region;
-  void findFloors(const CostVolume& volume, ThreadPool& pool);
-  void chooseFloors(int labels);
+  void countBelieved(const cv::Mat& disparity, const CostVolume& volume, ThreadPool& pool);
+  void countBelieved(int tile_column, int y, int threshold, const CostVolume& volume, int* counts);
+  void chooseFloors(int block_y, int labels);
   void chargeBlock(int block_x, int block_y, const std::vector<std::uint8_t>& charge,
                    CostVolume& volume) const;
+  bool markFarther(const cv::Mat& background, ThreadPool& pool, const cv::Mat& disparity);
+  template <class Body>
+  void forFarther(const Body& body) const;
+  bool isRowMarked(int y) const { return marked_rows_[static_cast<std::size_t>(y)] != 0; }
   void addData(const CostVolume& volume, const cv::Mat& background, std::vector<Region>& regions) const;
   void addLinks(const PathAggregator& paths, const PathSettings& settings, const cv::Mat& background,
                 std::vector<Region>& regions) const;
@@ -67,12 +72,14 @@ private:
 
   LabelSpace labels_;
   BackgroundSettings settings_;
-  cv::Mat label_;      // CV_32FC1 of the first search
-  cv::Mat data_cost_;  // CV_32FC1 of the first search, without charges
-  cv::Mat supported_;  // CV_16SC1: the believed label, or -1
-  cv::Mat floor_;      // CV_16SC1, one element a block
-  cv::Mat moved_;      // CV_16SC1: the label that a pixel was moved to, or -1
-  cv::Mat regions_;    // CV_32SC1
+  cv::Mat label_;              // CV_32FC1 of the first search
+  cv::Mat data_cost_;          // CV_32FC1 of the first search, without charges
+  std::vector<int> believed_;  // pixels with a believed label: [row of tiles][column of blocks][label]
+  cv::Mat floor_;              // CV_16SC1, one element a block
+  cv::Mat moved_;              // CV_16SC1: the label that a pixel was moved to, or -1
+  cv::Mat farther_;            // CV_8UC1: 1 where the second search is farther
+  std::vector<std::uint8_t> marked_rows_;  // of these: whether a row has any
+  cv::Mat regions_;                        // CV_32SC1
 };
 
 }  // namespace light_field_depth::multiview
