@@ -196,14 +196,15 @@ Kernel labelSelection()
 struct LinearizeData
 {
   static constexpr int HEIGHT = 32;
-  static constexpr std::size_t PIXEL_STRIDE = 4;
-  static constexpr std::size_t VIEW_BYTES = (HEIGHT + 1) * PIXELS * PIXEL_STRIDE;
+  static constexpr std::size_t PAD = VECTOR_ROOM;
+  static constexpr std::size_t PITCH = PIXELS + 2 * PAD;
+  static constexpr std::size_t VIEW_BYTES = HEIGHT * CHANNELS * PITCH;
   static constexpr std::size_t SPOKES = 4;
 
   std::vector<std::uint8_t> pixels = randomBytes(VIEWS * VIEW_BYTES, 60);
   std::vector<std::uint8_t> reference = randomBytes(CHANNELS * STRIDE, 60);
   std::vector<float> disparity = std::vector<float>(STRIDE);
-  std::vector<float> values = std::vector<float>(VIEWS * CHANNELS * TILE_PIXELS);
+  std::vector<float> weights = std::vector<float>(SPOKES * TILE_PIXELS);
   std::vector<float> refocused = std::vector<float>(CHANNELS * STRIDE);
   std::vector<float> moments = std::vector<float>(SPOKES * SPOKE_MOMENTS * STRIDE);
   std::array<SampledView, VIEWS> views{};
@@ -219,8 +220,11 @@ struct LinearizeData
     for (std::size_t i = 0; i < VIEWS; ++i)
     {
       const auto distance = static_cast<float>(i % 4 + 1);
-      views[i].pixels = &pixels[i * VIEW_BYTES];
-      views[i].row_stride = WIDTH * static_cast<int>(PIXEL_STRIDE);
+      views[i].pixels = &pixels[i * VIEW_BYTES + PAD];
+      views[i].channel_stride = PITCH;
+      views[i].row_stride = CHANNELS * PITCH;
+      views[i].pad_before = PAD;
+      views[i].pad_after = PAD;
       views[i].position = i < VIEWS / 2 ? distance : -distance;
       (i / 4 % 2 == 0 ? views[i].step_x : views[i].step_y) = views[i].position;
     }
@@ -235,7 +239,7 @@ struct LinearizeData
     tile.disparity = disparity.data();
     tile.first = TILE_PIXELS;
     tile.y = HEIGHT / 2;
-    tile.values = values.data();
+    tile.weights = weights.data();
     tile.refocused = refocused.data();
     tile.refocused_stride = STRIDE;
     tile.moments = moments.data();
@@ -249,7 +253,7 @@ Kernel linearization()
   const auto with = [&](auto kernel)
   { return calling(data, [kernel](LinearizeData& held) { kernel(held.tile); }); };
   constexpr double taps = 4.0;
-  constexpr double bytes_per_view = taps * LinearizeData::PIXEL_STRIDE + 3.0 * CHANNELS * sizeof(float);
+  constexpr double bytes_per_view = taps * CHANNELS;
   constexpr double bytes_per_pixel = VIEWS * bytes_per_view + CHANNELS +
                                      sizeof(float) * (1.0 + CHANNELS + LinearizeData::SPOKES * SPOKE_MOMENTS);
   return {"linearize all views",         "pixel x view",      TILE_PIXELS * static_cast<double>(VIEWS),

@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "light_field_depth/core/multiview/cost_kernels.h"
+#include "light_field_depth/core/multiview/cubic_taps.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
+#include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview/visibility_kernels.h"
 
 namespace light_field_depth::multiview
@@ -198,31 +200,40 @@ public:
   static constexpr int HEIGHT = 24;
   static constexpr std::size_t TILED_STRIDE = 2 * TILE_PIXELS;
 
-  explicit LinearizationCase(int channels) : channels_(static_cast<std::size_t>(channels))
+  /// @param steepness largest change of the disparity from pixel to pixel
+  LinearizationCase(int channels, float steepness) : channels_(static_cast<std::size_t>(channels))
   {
+    // Less than the views move: some blocks reach beyond the padding.
+    constexpr int pad = 6;
     Random random;
-    const int pixel_stride = channels == 3 ? 4 : 1;
-    const auto count = static_cast<std::size_t>((HEIGHT + 1) * WIDTH * pixel_stride);
     reference_ = random.bytes(3 * STRIDE);
     disparity_ = random.floats(TILED_STRIDE, -3.0F, 3.0F);
+    for (std::size_t x = 1; x < disparity_.size(); ++x)
+    {
+      const float before = disparity_[x - 1];
+      disparity_[x] = std::clamp(disparity_[x], before - steepness, before + steepness);
+    }
     const std::vector<std::array<float, 3>> placements = {{3.0F, 0.0F, 0.0F},
                                                           {-4.0F, 0.0F, 0.0F},
                                                           {0.0F, -2.0F, 0.0F},
                                                           {1.5F, -1.0F, 0.3F},
                                                           {1.0F, 1.0F, 0.0F}};
-    for (const auto& [step_x, step_y, offset_x] : placements)
+    images_.resize(placements.size());
+    for (std::size_t i = 0; i < placements.size(); ++i)
     {
       // Some views look like the reference, so that not all fall out of the mean.
-      auto pixels = random.bytes(count, 40);
-      pixels_.push_back(std::move(pixels));
+      auto pixels = random.bytes(static_cast<std::size_t>(HEIGHT * WIDTH) * channels_, 40);
+      preparePlanar(cv::Mat(HEIGHT, WIDTH, CV_8UC(channels), pixels.data()), {}, pad, images_[i]);
       SampledView view;
-      view.pixels = pixels_.back().data();
-      view.pixel_stride = pixel_stride;
-      view.row_stride = WIDTH * pixel_stride;
-      view.step_x = step_x;
-      view.step_y = step_y;
-      view.offset_x = offset_x;
-      view.position = step_x - step_y;
+      view.pixels = images_[i].row(0);
+      view.channel_stride = images_[i].channelStride();
+      view.row_stride = images_[i].row(1) - images_[i].row(0);
+      view.pad_before = pad;
+      view.pad_after = static_cast<int>(images_[i].channelStride()) - pad - WIDTH;
+      view.step_x = placements[i][0];
+      view.step_y = placements[i][1];
+      view.offset_x = placements[i][2];
+      view.position = view.step_x - view.step_y;
       views_.push_back(view);
     }
   }
@@ -232,7 +243,7 @@ public:
   std::vector<float> run(const Kernel& kernel) const
   {
     const std::vector<Spoke> spokes = {{0, 2}, {2, 3}, {3, 5}};
-    std::vector<float> samples(views_.size() * channels_ * TILE_PIXELS);
+    std::vector<float> weights(spokes.size() * TILE_PIXELS);
     std::vector<float> mean(channels_ * TILED_STRIDE);
     std::vector<float> moments(spokes.size() * SPOKE_MOMENTS * TILED_STRIDE);
     LinearizeTile tile;
@@ -248,7 +259,7 @@ public:
     tile.disparity = disparity_.data();
     tile.y = 3;
     tile.match_scale = 90.0F;
-    tile.values = samples.data();
+    tile.weights = weights.data();
     tile.refocused = mean.data();
     tile.refocused_stride = TILED_STRIDE;
     tile.moments = moments.data();
@@ -273,7 +284,7 @@ private:
   std::size_t channels_;
   std::vector<std::uint8_t> reference_;
   std::vector<float> disparity_;
-  std::vector<std::vector<std::uint8_t>> pixels_;
+  std::vector<PlanarImage> images_;
   std::vector<SampledView> views_;
 };
 
@@ -281,15 +292,32 @@ TEST(MultiviewKernels, LinearizationEqualsThePlainVersion)
 {
   for (const int channels : {1, 3})
   {
-    const LinearizationCase views(channels);
-    const auto simd = views.run(linearizeTile);
-    const auto plain = views.run(linearizeTilePlain);
-    ASSERT_EQ(simd.size(), plain.size());
-    for (std::size_t i = 0; i < simd.size(); ++i)
+    for (const float steepness : {0.0F, 0.01F, 0.2F, 6.0F})
     {
-      ASSERT_EQ(simd[i], plain[i]) << channels << " channels, row " << i / WIDTH << " at " << i % WIDTH;
+      const LinearizationCase views(channels, steepness);
+      const auto simd = views.run(linearizeTile);
+      const auto plain = views.run(linearizeTilePlain);
+      ASSERT_EQ(simd.size(), plain.size());
+      for (std::size_t i = 0; i < simd.size(); ++i)
+      {
+        ASSERT_EQ(simd[i], plain[i]) << channels << " channels, steepness " << steepness << ", row "
+                                     << i / WIDTH << " at " << i % WIDTH;
+      }
     }
   }
+}
+
+TEST(MultiviewKernels, TapsInterpolateAndAddUpToOne)
+{
+  for (int i = 0; i < 1000; ++i)
+  {
+    const float t = static_cast<float>(i) / 1000.0F;
+    const auto weights = cubicTaps(t);
+    EXPECT_EQ(weights[0] + weights[1] + weights[2] + weights[3], TAP_MOST);
+    const float exact = ((2.0F - 1.5F * t) * t + 0.5F) * t;
+    EXPECT_NEAR(static_cast<float>(weights[2]) / TAP_ONE, exact, 1e-4F);
+  }
+  EXPECT_EQ(cubicTaps(0.0F), (std::array<int, 4>{0, TAP_MOST, 0, 0}));
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "multiview/linearize_kernels.cpp"
 #include <hwy/foreach_target.h>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "light_field_depth/core/multiview/cubic_taps.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
@@ -23,266 +25,481 @@ void linearizeTileSimd(const LinearizeTile& tile)
 #else
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, 16>;
-using Integers = hn::RebindToSigned<Floats>;
+// Samples are taken in words, a block of lanes at a time; what is summed over views is summed in two vectors
+// of floats for each vector of words.
+using Words = hn::CappedTag<std::int16_t, 32>;
+using HalfWords = hn::Half<Words>;
+using UnsignedWords = hn::RebindToUnsigned<Words>;
+using HalfUnsigned = hn::Half<UnsignedWords>;
+using Bytes = hn::Rebind<std::uint8_t, Words>;
+using Integers = hn::Repartition<std::int32_t, Words>;
+using Floats = hn::Repartition<float, Words>;
+using WordVector = hn::Vec<Words>;
 using FloatVector = hn::Vec<Floats>;
-using IntegerVector = hn::Vec<Integers>;
 
-/// Position along one axis with the weights of its four taps; the order of operations is that of
-/// cubic_taps.h.
-struct Axis
+struct FloatPair
 {
-  IntegerVector first;
-  FloatVector weight0, weight1, weight2, weight3;
+  FloatVector low, high;
 };
 
-HWY_INLINE Axis axisAt(FloatVector position)
+/// Up to three channels, in units of 1 / SAMPLE_UNIT.
+struct Samples
 {
+  WordVector c0, c1, c2;
+};
+
+HWY_INLINE FloatPair toFloats(WordVector values)
+{
+  const Integers i;
   const Floats f;
-  const Integers i;
-  const auto c = [&](float value) HWY_ATTR { return hn::Set(f, value); };
-  const auto whole = hn::Floor(position);
-  const auto t = hn::Sub(position, whole);
-  const auto t_half = hn::Mul(t, c(0.5F));
-  const auto t_three_halves = hn::Mul(t, c(1.5F));
-  Axis axis;
-  axis.first = hn::Sub(hn::ConvertTo(i, whole), hn::Set(i, 1));
-  axis.weight0 = hn::Mul(hn::Sub(hn::Mul(hn::Sub(c(1.0F), t_half), t), c(0.5F)), t);
-  axis.weight1 = hn::Add(hn::Mul(hn::Mul(hn::Sub(t_three_halves, c(2.5F)), t), t), c(1.0F));
-  axis.weight2 = hn::Mul(hn::Add(hn::Mul(hn::Sub(c(2.0F), t_three_halves), t), c(0.5F)), t);
-  axis.weight3 = hn::Mul(hn::Mul(hn::Sub(t_half, c(0.5F)), t), t);
-  return axis;
+  return {hn::ConvertTo(f, hn::PromoteTo(i, hn::LowerHalf(HalfWords(), values))),
+          hn::ConvertTo(f, hn::PromoteTo(i, hn::UpperHalf(HalfWords(), values)))};
 }
 
-/// Up to three channels.
-struct Colour
-{
-  FloatVector c0, c1, c2;
-};
-
-template <int CHANNEL>
-HWY_INLINE FloatVector channelOf(IntegerVector pixel)
+HWY_INLINE FloatPair unsignedToFloats(WordVector values)
 {
   const Integers i;
-  return hn::ConvertTo(Floats(), hn::And(hn::ShiftRight<8 * CHANNEL>(pixel), hn::Set(i, 255)));
+  const Floats f;
+  const auto as_unsigned = hn::BitCast(UnsignedWords(), values);
+  return {hn::ConvertTo(f, hn::PromoteTo(i, hn::LowerHalf(HalfUnsigned(), as_unsigned))),
+          hn::ConvertTo(f, hn::PromoteTo(i, hn::UpperHalf(HalfUnsigned(), as_unsigned)))};
+}
+
+/// Whole numbers, towards zero.
+HWY_INLINE WordVector toWords(const FloatPair& values)
+{
+  const Integers i;
+  const Words words;
+  return hn::ConcatEven(words, hn::BitCast(words, hn::ConvertTo(i, values.high)),
+                        hn::BitCast(words, hn::ConvertTo(i, values.low)));
 }
 
 template <int CHANNELS>
-HWY_INLINE void addScaled(FloatVector weight, const Colour& colour, Colour& sum)
+HWY_INLINE Samples black()
 {
-  sum.c0 = hn::Add(sum.c0, hn::Mul(weight, colour.c0));
-  if (CHANNELS == 3)
-  {
-    sum.c1 = hn::Add(sum.c1, hn::Mul(weight, colour.c1));
-    sum.c2 = hn::Add(sum.c2, hn::Mul(weight, colour.c2));
-  }
-}
-
-template <int CHANNELS>
-HWY_INLINE void addTap(IntegerVector pixel, FloatVector weight, Colour& sum)
-{
-  Colour colour{channelOf<0>(pixel), weight, weight};
-  if (CHANNELS == 3)
-  {
-    colour.c1 = channelOf<1>(pixel);
-    colour.c2 = channelOf<2>(pixel);
-  }
-  addScaled<CHANNELS>(weight, colour, sum);
-}
-
-HWY_INLINE Colour black()
-{
-  const auto zero = hn::Zero(Floats());
+  const auto zero = hn::Zero(Words());
   return {zero, zero, zero};
 }
 
-HWY_INLINE IntegerVector clampedIndex(IntegerVector index, int offset, int count)
-{
-  const Integers i;
-  return hn::Min(hn::Max(hn::Add(index, hn::Set(i, offset)), hn::Zero(i)), hn::Set(i, count - 1));
-}
-
 template <int CHANNELS>
-HWY_INLINE Colour sampleLine(const SampledView& view, const Axis& axis, int count, int stride,
-                             IntegerVector offset)
+HWY_INLINE void addWeighted(WordVector weight, const Samples& tap, Samples& sum)
 {
-  const Integers i;
-  const auto* const pixels = reinterpret_cast<const std::int32_t*>(view.pixels);
-  const auto stride_vector = hn::Set(i, stride);
-  const auto gather = [&](int tap) HWY_ATTR
-  {
-    const auto index = clampedIndex(axis.first, tap, count);
-    return hn::GatherOffset(i, pixels, hn::Add(offset, hn::Mul(index, stride_vector)));
-  };
-  Colour sample = black();
-  addTap<CHANNELS>(gather(0), axis.weight0, sample);
-  addTap<CHANNELS>(gather(1), axis.weight1, sample);
-  addTap<CHANNELS>(gather(2), axis.weight2, sample);
-  addTap<CHANNELS>(gather(3), axis.weight3, sample);
-  return sample;
-}
-
-template <int CHANNELS>
-HWY_INLINE void addLine(const LinearizeTile& tile, const SampledView& view, const Axis& across,
-                        const Axis& down, int tap, FloatVector weight, Colour& sample)
-{
-  const Integers i;
-  const auto offset = hn::Mul(clampedIndex(down.first, tap, tile.height), hn::Set(i, view.row_stride));
-  addScaled<CHANNELS>(weight, sampleLine<CHANNELS>(view, across, tile.width, view.pixel_stride, offset),
-                      sample);
-}
-
-template <int CHANNELS>
-HWY_INLINE Colour sampleView(const LinearizeTile& tile, const SampledView& view, FloatVector x,
-                             FloatVector disparity)
-{
-  const Floats f;
-  const Integers i;
-  const auto position = [&](FloatVector start, float offset, float step) HWY_ATTR
-  { return hn::Add(start, hn::Sub(hn::Set(f, offset), hn::Mul(disparity, hn::Set(f, step)))); };
-  const auto at_x = position(x, view.offset_x, view.step_x);
-  const auto at_y = position(hn::Set(f, static_cast<float>(tile.y)), view.offset_y, view.step_y);
-  if (view.step_y == 0.0F && view.offset_y == 0.0F)
-  {
-    return sampleLine<CHANNELS>(view, axisAt(at_x), tile.width, view.pixel_stride,
-                                hn::Set(i, tile.y * view.row_stride));
-  }
-  if (view.step_x == 0.0F && view.offset_x == 0.0F)
-  {
-    const auto column = hn::Mul(hn::ConvertTo(i, x), hn::Set(i, view.pixel_stride));
-    return sampleLine<CHANNELS>(view, axisAt(at_y), tile.height, view.row_stride, column);
-  }
-  const Axis across = axisAt(at_x);
-  const Axis down = axisAt(at_y);
-  Colour sample = black();
-  addLine<CHANNELS>(tile, view, across, down, 0, down.weight0, sample);
-  addLine<CHANNELS>(tile, view, across, down, 1, down.weight1, sample);
-  addLine<CHANNELS>(tile, view, across, down, 2, down.weight2, sample);
-  addLine<CHANNELS>(tile, view, across, down, 3, down.weight3, sample);
-  return sample;
-}
-
-/// Sum of the absolute differences; a grey image counts three times.
-template <int CHANNELS>
-HWY_INLINE FloatVector mismatch(const Colour& a, const Colour& b)
-{
-  auto sum = hn::Abs(hn::Sub(a.c0, b.c0));
+  sum.c0 = hn::Add(sum.c0, hn::MulFixedPoint15(weight, tap.c0));
   if (CHANNELS == 3)
   {
-    sum = hn::Add(hn::Add(sum, hn::Abs(hn::Sub(a.c1, b.c1))), hn::Abs(hn::Sub(a.c2, b.c2)));
+    sum.c1 = hn::Add(sum.c1, hn::MulFixedPoint15(weight, tap.c1));
+    sum.c2 = hn::Add(sum.c2, hn::MulFixedPoint15(weight, tap.c2));
+  }
+}
+
+template <int CHANNELS>
+HWY_INLINE Samples loadSamples(const std::uint8_t* pixels, std::size_t channel_stride)
+{
+  const Words words;
+  const Bytes bytes;
+  Samples samples;
+  samples.c0 = hn::ShiftLeft<SAMPLE_SHIFT>(hn::PromoteTo(words, hn::LoadU(bytes, pixels)));
+  samples.c1 = samples.c0;
+  samples.c2 = samples.c0;
+  if (CHANNELS == 3)
+  {
+    const std::uint8_t* const second = pixels + channel_stride;
+    samples.c1 = hn::ShiftLeft<SAMPLE_SHIFT>(hn::PromoteTo(words, hn::LoadU(bytes, second)));
+    samples.c2 = hn::ShiftLeft<SAMPLE_SHIFT>(hn::PromoteTo(words, hn::LoadU(bytes, second + channel_stride)));
+  }
+  return samples;
+}
+
+/// Shifts of a block along one axis: lane i takes its four taps from index base + delta[i] on.
+struct Axis
+{
+  int base = 0;
+  int span = 0;  ///< largest delta
+  WordVector delta;
+  WordVector weight0, weight1, weight2, weight3;
+};
+
+/// Smallest and largest disparity of a block, with all of them.
+struct BlockDisparity
+{
+  FloatPair values;
+  float least;
+  float most;
+};
+
+HWY_INLINE Axis axisOf(const BlockDisparity& disparity, float offset, float step)
+{
+  const Floats f;
+  const Words words;
+  const float at_least = offset - disparity.least * step;
+  const float at_most = offset - disparity.most * step;
+  Axis axis;
+  const float low = std::floor(std::min(at_least, at_most));
+  axis.base = static_cast<int>(low) - 1;
+  axis.span = static_cast<int>(std::floor(std::max(at_least, at_most)) - low);
+  const auto shift = [&](FloatVector values) HWY_ATTR
+  { return hn::Sub(hn::Set(f, offset), hn::Mul(values, hn::Set(f, step))); };
+  const FloatPair shifts{shift(disparity.values.low), shift(disparity.values.high)};
+  const FloatPair whole{hn::Floor(shifts.low), hn::Floor(shifts.high)};
+  const auto one = hn::Set(f, TAP_ONE);
+  const auto t =
+      toWords({hn::Mul(hn::Sub(shifts.low, whole.low), one), hn::Mul(hn::Sub(shifts.high, whole.high), one)});
+  axis.delta = t;
+  if (axis.span > 0)
+  {
+    const auto least = hn::Set(f, low);
+    axis.delta = toWords({hn::Sub(whole.low, least), hn::Sub(whole.high, least)});
+  }
+  // Catmull and Rom's, with u = 1 - t: -t u u / 2 and -t t u / 2 outside.
+  const auto u = hn::Sub(hn::Set(words, TAP_MOST), t);
+  const auto both = hn::MulFixedPoint15(t, u);
+  const auto before = hn::ShiftRight<1>(hn::MulFixedPoint15(both, u));
+  const auto after = hn::ShiftRight<1>(hn::MulFixedPoint15(both, t));
+  axis.weight0 = hn::Neg(before);
+  axis.weight1 = hn::Sub(hn::Add(hn::Add(before, before), u), after);
+  axis.weight2 = hn::Sub(hn::Add(hn::Add(after, after), t), before);
+  axis.weight3 = hn::Neg(after);
+  return axis;
+}
+
+/// The weighted sum of the taps of all lanes. tap(j) is what lies at index base + j of every lane.
+template <int CHANNELS, typename Tap>
+HWY_INLINE Samples sumTaps(const Axis& axis, const Tap& tap)
+{
+  const Words words;
+  Samples sum = black<CHANNELS>();
+  if (axis.span == 0)
+  {
+    addWeighted<CHANNELS>(axis.weight0, tap(0), sum);
+    addWeighted<CHANNELS>(axis.weight1, tap(1), sum);
+    addWeighted<CHANNELS>(axis.weight2, tap(2), sum);
+    addWeighted<CHANNELS>(axis.weight3, tap(3), sum);
     return sum;
   }
-  return hn::Mul(sum, hn::Set(Floats(), 3.0F));
-}
-
-template <int CHANNELS>
-HWY_INLINE Colour referenceAt(const LinearizeTile& tile, int x)
-{
-  const Floats f;
-  const hn::Rebind<std::uint8_t, Floats> bytes;
-  const auto channel = [&](std::size_t c) HWY_ATTR
+  if (axis.span == 1)
   {
-    const auto pixels = hn::LoadU(bytes, tile.reference + c * tile.reference_stride + x);
-    return hn::ConvertTo(f, hn::PromoteTo(Integers(), pixels));
-  };
-  const auto first = channel(0);
-  return CHANNELS == 3 ? Colour{first, channel(1), channel(2)} : Colour{first, first, first};
+    const auto later = hn::Gt(axis.delta, hn::Zero(words));
+    addWeighted<CHANNELS>(hn::IfThenZeroElse(later, axis.weight0), tap(0), sum);
+    addWeighted<CHANNELS>(hn::IfThenElse(later, axis.weight0, axis.weight1), tap(1), sum);
+    addWeighted<CHANNELS>(hn::IfThenElse(later, axis.weight1, axis.weight2), tap(2), sum);
+    addWeighted<CHANNELS>(hn::IfThenElse(later, axis.weight2, axis.weight3), tap(3), sum);
+    addWeighted<CHANNELS>(hn::IfThenElseZero(later, axis.weight3), tap(4), sum);
+    return sum;
+  }
+  // Lanes for which index j is the first tap, the second, and so on.
+  const auto none = hn::Lt(axis.delta, hn::Zero(words));
+  auto first = none;
+  auto second = none;
+  auto third = none;
+  auto fourth = none;
+  for (int j = 0; j <= axis.span + 3; ++j)
+  {
+    fourth = third;
+    third = second;
+    second = first;
+    first = hn::Eq(axis.delta, hn::Set(words, static_cast<std::int16_t>(j)));
+    if (hn::AllFalse(words, hn::Or(hn::Or(first, second), hn::Or(third, fourth))))
+    {
+      continue;
+    }
+    const auto late = hn::IfThenElse(third, axis.weight2, hn::IfThenElseZero(fourth, axis.weight3));
+    const auto weight = hn::IfThenElse(first, axis.weight0, hn::IfThenElse(second, axis.weight1, late));
+    addWeighted<CHANNELS>(weight, tap(j), sum);
+  }
+  return sum;
 }
 
+/// Taps along a row whose padding holds all that a block can touch.
 template <int CHANNELS>
-HWY_INLINE void storeColour(const Colour& colour, std::size_t stride, float* values)
+struct AlongRow
+{
+  const std::uint8_t* pixels;
+  std::size_t channel_stride;
+
+  HWY_INLINE Samples operator()(int tap) const { return loadSamples<CHANNELS>(pixels + tap, channel_stride); }
+};
+
+/// The same for a block that reaches beyond the padding.
+template <int CHANNELS>
+struct AlongRowClamped
+{
+  const std::uint8_t* row;
+  std::size_t channel_stride;
+  int first;
+  int width;
+
+  HWY_INLINE Samples operator()(int tap) const
+  {
+    constexpr std::size_t most_lanes = 32;
+    const int lanes = static_cast<int>(hn::Lanes(Words()));
+    std::uint8_t pixels[CHANNELS * most_lanes];
+    for (int lane = 0; lane < lanes; ++lane)
+    {
+      const auto x = static_cast<std::size_t>(std::clamp(first + tap + lane, 0, width - 1));
+      for (std::size_t c = 0; c < CHANNELS; ++c)
+      {
+        pixels[c * most_lanes + static_cast<std::size_t>(lane)] = row[c * channel_stride + x];
+      }
+    }
+    return loadSamples<CHANNELS>(pixels, most_lanes);
+  }
+};
+
+/// What the next row of the reference needs first. The caches of a core are smaller than the views, and too
+/// many rows are read at a time for a processor to see what comes.
+template <int CHANNELS>
+HWY_INLINE void fetchAhead(const SampledView& view, const std::uint8_t* row, int x)
+{
+  for (std::size_t c = 0; c < CHANNELS; ++c)
+  {
+    hwy::Prefetch(row + c * view.channel_stride + x);
+  }
+}
+
+HWY_INLINE const std::uint8_t* rowOf(const LinearizeTile& tile, const SampledView& view, int y)
+{
+  return view.pixels + static_cast<std::ptrdiff_t>(std::clamp(y, 0, tile.height - 1)) * view.row_stride;
+}
+
+/// @param x first column of the block
+template <int CHANNELS>
+HWY_INLINE Samples sampleRow(const LinearizeTile& tile, const SampledView& view, const std::uint8_t* row,
+                             int x, const Axis& across)
+{
+  const int lanes = static_cast<int>(hn::Lanes(Words()));
+  const int first = x + across.base;
+  if (first >= -view.pad_before && first + across.span + 3 + lanes <= tile.width + view.pad_after)
+  {
+    return sumTaps<CHANNELS>(across, AlongRow<CHANNELS>{row + first, view.channel_stride});
+  }
+  return sumTaps<CHANNELS>(across, AlongRowClamped<CHANNELS>{row, view.channel_stride, first, tile.width});
+}
+
+/// Taps down the columns of a block.
+template <int CHANNELS>
+struct DownColumns
+{
+  const LinearizeTile& tile;
+  const SampledView& view;
+  int x;
+  int first;
+
+  HWY_INLINE Samples operator()(int tap) const
+  {
+    return loadSamples<CHANNELS>(rowOf(tile, view, first + tap) + x, view.channel_stride);
+  }
+};
+
+/// Rows that are sampled across.
+template <int CHANNELS>
+struct DownRows
+{
+  const LinearizeTile& tile;
+  const SampledView& view;
+  const Axis& across;
+  int x;
+  int first;
+
+  HWY_INLINE Samples operator()(int tap) const
+  {
+    return sampleRow<CHANNELS>(tile, view, rowOf(tile, view, first + tap), x, across);
+  }
+};
+
+template <int CHANNELS>
+HWY_INLINE Samples sampleView(const LinearizeTile& tile, const SampledView& view, int x,
+                              const BlockDisparity& disparity)
+{
+  if (view.step_y == 0.0F && view.offset_y == 0.0F)
+  {
+    const Axis across = axisOf(disparity, view.offset_x, view.step_x);
+    fetchAhead<CHANNELS>(view, rowOf(tile, view, tile.y + 1), x + across.base);
+    return sampleRow<CHANNELS>(tile, view, rowOf(tile, view, tile.y), x, across);
+  }
+  const Axis down = axisOf(disparity, view.offset_y, view.step_y);
+  const int first = tile.y + down.base;
+  fetchAhead<CHANNELS>(view, rowOf(tile, view, first + down.span + 4), x);
+  if (view.step_x == 0.0F && view.offset_x == 0.0F)
+  {
+    return sumTaps<CHANNELS>(down, DownColumns<CHANNELS>{tile, view, x, first});
+  }
+  const Axis across = axisOf(disparity, view.offset_x, view.step_x);
+  return sumTaps<CHANNELS>(down, DownRows<CHANNELS>{tile, view, across, x, first});
+}
+
+HWY_INLINE BlockDisparity disparityAt(const float* disparity)
 {
   const Floats f;
-  hn::StoreU(colour.c0, f, values);
+  BlockDisparity block{{hn::LoadU(f, disparity), hn::LoadU(f, disparity + hn::Lanes(f))}, 0.0F, 0.0F};
+  block.least = hn::GetLane(hn::MinOfLanes(f, hn::Min(block.values.low, block.values.high)));
+  block.most = hn::GetLane(hn::MaxOfLanes(f, hn::Max(block.values.low, block.values.high)));
+  return block;
+}
+
+/// What is summed over views: numbers of one half of the lanes.
+struct Sums
+{
+  FloatVector total, mean0, mean1, mean2;           // of all views
+  FloatVector residual, kk, weight, kr0, kr1, kr2;  // of one spoke
+};
+
+template <int CHANNELS>
+HWY_INLINE void addView(FloatVector mismatch, FloatVector d0, FloatVector d1, FloatVector d2, float scale,
+                        float position, Sums& sums)
+{
+  const Floats f;
+  const auto e = CHANNELS == 3 ? mismatch : hn::Mul(mismatch, hn::Set(f, 3.0F));
+  const auto k = hn::Set(f, position);
+  const auto spread = hn::Add(hn::Mul(e, e), hn::Set(f, scale));
+  const auto softened = hn::Add(e, hn::Set(f, RESIDUAL_SOFTENING * SAMPLE_UNIT));
+  const auto inverse = hn::Div(hn::Set(f, 1.0F), hn::Mul(spread, softened));
+  const auto share = hn::Mul(hn::Mul(hn::Set(f, scale), softened), inverse);
+  const auto in_mean = hn::Mul(share, share);
+  const auto weight_k = hn::Mul(hn::Mul(hn::Set(f, position * (3.0F / CHANNELS)), spread), inverse);
+  sums.total = hn::Add(sums.total, in_mean);
+  sums.residual = hn::Add(sums.residual, e);
+  sums.kk = hn::Add(sums.kk, hn::Mul(weight_k, k));
+  sums.weight = hn::Add(sums.weight, weight_k);
+  sums.mean0 = hn::Add(sums.mean0, hn::Mul(in_mean, d0));
+  sums.kr0 = hn::Add(sums.kr0, hn::Mul(weight_k, d0));
   if (CHANNELS == 3)
   {
-    hn::StoreU(colour.c1, f, values + stride);
-    hn::StoreU(colour.c2, f, values + 2 * stride);
+    sums.mean1 = hn::Add(sums.mean1, hn::Mul(in_mean, d1));
+    sums.kr1 = hn::Add(sums.kr1, hn::Mul(weight_k, d1));
+    sums.mean2 = hn::Add(sums.mean2, hn::Mul(in_mean, d2));
+    sums.kr2 = hn::Add(sums.kr2, hn::Mul(weight_k, d2));
   }
 }
 
+/// @param weights of the spoke, for the block
 template <int CHANNELS>
-HWY_INLINE Colour loadColour(const float* values, std::size_t stride)
+HWY_INLINE void storeSpoke(const Sums& sums, std::size_t stride, float* moments, float* weights)
 {
   const Floats f;
-  const auto first = hn::LoadU(f, values);
-  return CHANNELS == 3 ? Colour{first, hn::LoadU(f, values + stride), hn::LoadU(f, values + 2 * stride)}
-                       : Colour{first, first, first};
-}
-
-template <int CHANNELS>
-HWY_INLINE void sumSpoke(const LinearizeTile& tile, const Spoke& spoke, const Colour& reference,
-                         const Colour& mean, int in_tile, float* moments)
-{
-  const Floats f;
-  const auto channel_weight = hn::Set(f, 3.0F / static_cast<float>(CHANNELS));
-  auto residual = hn::Zero(f);
-  auto kk = hn::Zero(f);
-  Colour kr = black();
-  for (int view = spoke.first; view < spoke.last; ++view)
+  hn::StoreU(hn::Mul(sums.residual, hn::Set(f, 1.0F / SAMPLE_UNIT)), f, moments + SPOKE_RESIDUAL * stride);
+  hn::StoreU(hn::Mul(sums.kk, hn::Set(f, SAMPLE_UNIT)), f, moments + SPOKE_KK * stride);
+  hn::StoreU(sums.weight, f, weights);
+  hn::StoreU(sums.kr0, f, moments + SPOKE_KR * stride);
+  if (CHANNELS == 3)
   {
-    const Colour sample =
-        loadColour<CHANNELS>(tile.values + view * CHANNELS * TILE_PIXELS + in_tile, TILE_PIXELS);
-    const auto e = mismatch<CHANNELS>(sample, reference);
-    const auto k = hn::Set(f, tile.views[view].position);
-    const auto weight_k = hn::Mul(hn::Div(channel_weight, hn::Add(e, hn::Set(f, RESIDUAL_SOFTENING))), k);
-    residual = hn::Add(residual, e);
-    kk = hn::Add(kk, hn::Mul(weight_k, k));
-    const Colour difference{hn::Sub(sample.c0, mean.c0), hn::Sub(sample.c1, mean.c1),
-                            hn::Sub(sample.c2, mean.c2)};
-    addScaled<CHANNELS>(weight_k, difference, kr);
+    hn::StoreU(sums.kr1, f, moments + (SPOKE_KR + 1) * stride);
+    hn::StoreU(sums.kr2, f, moments + (SPOKE_KR + 2) * stride);
   }
-  hn::StoreU(residual, f, moments + SPOKE_RESIDUAL * tile.stride);
-  hn::StoreU(kk, f, moments + SPOKE_KK * tile.stride);
-  storeColour<CHANNELS>(kr, tile.stride, moments + SPOKE_KR * tile.stride);
+}
+
+/// Differences to the reference become differences to the mean.
+HWY_INLINE void centre(FloatVector mean, FloatVector weight, float* kr)
+{
+  const Floats f;
+  hn::StoreU(hn::Sub(hn::LoadU(f, kr), hn::Mul(weight, mean)), f, kr);
 }
 
 template <int CHANNELS>
-HWY_INLINE void linearizePixels(const LinearizeTile& tile, int x)
+HWY_INLINE void finish(const LinearizeTile& tile, const Samples& reference, int x, Sums (&halves)[2])
 {
   const Floats f;
-  const auto columns =
-      hn::Min(hn::Iota(f, static_cast<float>(x)), hn::Set(f, static_cast<float>(tile.width - 1)));
-  const auto disparity = hn::LoadU(f, tile.disparity + x);
-  const auto scale = hn::Set(f, tile.match_scale * tile.match_scale);
-  const int in_tile = x - tile.first;
-  const Colour reference = referenceAt<CHANNELS>(tile, x);
-  Colour mean = reference;
-  auto total = hn::Set(f, 1.0F);
-  for (int view = 0; view < tile.view_count; ++view)
+  const auto unit = hn::Set(f, 1.0F / SAMPLE_UNIT);
+  const std::size_t lanes = hn::Lanes(f);
+  const auto channel = [&](FloatVector& low, FloatVector& high, WordVector here, std::size_t c) HWY_ATTR
   {
-    const Colour sample = sampleView<CHANNELS>(tile, tile.views[view], columns, disparity);
-    const auto e = mismatch<CHANNELS>(sample, reference);
-    const auto share = hn::Div(scale, hn::Add(hn::Mul(e, e), scale));
-    const auto weight = hn::Mul(share, share);
-    total = hn::Add(total, weight);
-    addScaled<CHANNELS>(weight, sample, mean);
-    storeColour<CHANNELS>(sample, TILE_PIXELS, tile.values + view * CHANNELS * TILE_PIXELS + in_tile);
+    low = hn::Div(low, halves[0].total);
+    high = hn::Div(high, halves[1].total);
+    const FloatPair start = toFloats(here);
+    float* const refocused = tile.refocused + c * tile.refocused_stride + x;
+    hn::StoreU(hn::Mul(hn::Add(start.low, low), unit), f, refocused);
+    hn::StoreU(hn::Mul(hn::Add(start.high, high), unit), f, refocused + lanes);
+  };
+  channel(halves[0].mean0, halves[1].mean0, reference.c0, 0);
+  if (CHANNELS == 3)
+  {
+    channel(halves[0].mean1, halves[1].mean1, reference.c1, 1);
+    channel(halves[0].mean2, halves[1].mean2, reference.c2, 2);
   }
-  mean.c0 = hn::Div(mean.c0, total);
-  mean.c1 = CHANNELS == 3 ? hn::Div(mean.c1, total) : mean.c0;
-  mean.c2 = CHANNELS == 3 ? hn::Div(mean.c2, total) : mean.c0;
-  storeColour<CHANNELS>(mean, tile.refocused_stride, tile.refocused + x);
+  for (std::size_t spoke = 0; spoke < static_cast<std::size_t>(tile.spoke_count); ++spoke)
+  {
+    for (std::size_t half = 0; half < 2; ++half)
+    {
+      const std::size_t in_row = static_cast<std::size_t>(x) + half * lanes;
+      const auto weight =
+          hn::LoadU(f, tile.weights + spoke * TILE_PIXELS + in_row - static_cast<std::size_t>(tile.first));
+      float* const kr = tile.moments + (spoke * SPOKE_MOMENTS + SPOKE_KR) * tile.stride + in_row;
+      centre(halves[half].mean0, weight, kr);
+      if (CHANNELS == 3)
+      {
+        centre(halves[half].mean1, weight, kr + tile.stride);
+        centre(halves[half].mean2, weight, kr + 2 * tile.stride);
+      }
+    }
+  }
+}
+
+HWY_INLINE void beginSpoke(Sums& sums)
+{
+  const auto zero = hn::Zero(Floats());
+  sums.residual = sums.kk = sums.weight = sums.kr0 = sums.kr1 = sums.kr2 = zero;
+}
+
+template <int CHANNELS>
+HWY_INLINE void linearizeBlock(const LinearizeTile& tile, int x)
+{
+  const Floats f;
+  const std::size_t lanes = hn::Lanes(f);
+  const BlockDisparity disparity = disparityAt(tile.disparity + x);
+  const Samples reference = loadSamples<CHANNELS>(tile.reference + x, tile.reference_stride);
+  const float scale = tile.match_scale * tile.match_scale * (SAMPLE_UNIT * SAMPLE_UNIT);
+  Sums halves[2];
+  for (Sums& sums : halves)
+  {
+    sums.total = hn::Set(f, 1.0F);
+    sums.mean0 = sums.mean1 = sums.mean2 = hn::Zero(f);
+  }
   for (int spoke = 0; spoke < tile.spoke_count; ++spoke)
   {
-    sumSpoke<CHANNELS>(tile, tile.spokes[spoke], reference, mean, in_tile,
-                       tile.moments + static_cast<std::size_t>(spoke) * SPOKE_MOMENTS * tile.stride + x);
+    beginSpoke(halves[0]);
+    beginSpoke(halves[1]);
+    for (int i = tile.spokes[spoke].first; i < tile.spokes[spoke].last; ++i)
+    {
+      const Samples sample = sampleView<CHANNELS>(tile, tile.views[i], x, disparity);
+      const auto d0 = hn::Sub(sample.c0, reference.c0);
+      auto mismatch = hn::Abs(d0);
+      FloatPair difference0 = toFloats(d0);
+      FloatPair difference1 = difference0;
+      FloatPair difference2 = difference0;
+      if (CHANNELS == 3)
+      {
+        const auto d1 = hn::Sub(sample.c1, reference.c1);
+        const auto d2 = hn::Sub(sample.c2, reference.c2);
+        mismatch = hn::Add(hn::Add(mismatch, hn::Abs(d1)), hn::Abs(d2));
+        difference1 = toFloats(d1);
+        difference2 = toFloats(d2);
+      }
+      const FloatPair e = unsignedToFloats(mismatch);
+      const float position = tile.views[i].position;
+      addView<CHANNELS>(e.low, difference0.low, difference1.low, difference2.low, scale, position, halves[0]);
+      addView<CHANNELS>(e.high, difference0.high, difference1.high, difference2.high, scale, position,
+                        halves[1]);
+    }
+    float* const moments = tile.moments + static_cast<std::size_t>(spoke) * SPOKE_MOMENTS * tile.stride + x;
+    float* const weights = tile.weights + spoke * TILE_PIXELS + (x - tile.first);
+    storeSpoke<CHANNELS>(halves[0], tile.stride, moments, weights);
+    storeSpoke<CHANNELS>(halves[1], tile.stride, moments + lanes, weights + lanes);
   }
+  finish<CHANNELS>(tile, reference, x, halves);
 }
 
 void linearizeTileSimd(const LinearizeTile& tile)
 {
-  const int lanes = static_cast<int>(hn::Lanes(Floats()));
+  const int lanes = static_cast<int>(hn::Lanes(Words()));
   const int last = std::min(tile.width, tile.first + TILE_PIXELS);
   for (int x = tile.first; x < last; x += lanes)
   {
     if (tile.channels == 3)
     {
-      linearizePixels<3>(tile, x);
+      linearizeBlock<3>(tile, x);
     }
     else
     {
-      linearizePixels<1>(tile, x);
+      linearizeBlock<1>(tile, x);
     }
   }
 }

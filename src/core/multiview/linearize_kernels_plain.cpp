@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "light_field_depth/core/multiview/cubic_taps.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
@@ -9,137 +10,165 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-using Values = std::array<float, 3>;
+constexpr int TAPS = 4;
+using Samples = std::array<int, 3>;
 
 struct Axis
 {
-  int first = 0;  ///< pixel of the first tap
-  std::array<float, 4> weight{};
+  int first = 0;  ///< index of the first tap
+  std::array<int, TAPS> weight{};
 };
 
-Axis axisAt(float position)
+Axis axisAt(int start, float disparity, float offset, float step)
 {
-  const float whole = std::floor(position);
-  const float t = position - whole;
-  return {static_cast<int>(whole) - 1, {cubicValue0(t), cubicValue1(t), cubicValue2(t), cubicValue3(t)}};
+  const float shift = offset - disparity * step;
+  const float whole = std::floor(shift);
+  return {start + static_cast<int>(whole) - 1, cubicTaps(shift - whole)};
 }
 
-/// One line of four taps: pixels `offset` + clamp(first + i, 0, count - 1) * stride.
-Values sampleLine(const LinearizeTile& tile, const SampledView& view, const Axis& axis, int count, int stride,
-                  int offset)
+Samples sampleRow(const LinearizeTile& tile, const SampledView& view, const Axis& across, int y)
 {
-  Values sample{};
-  for (int tap = 0; tap < 4; ++tap)
+  const std::uint8_t* const row = view.pixels + std::clamp(y, 0, tile.height - 1) * view.row_stride;
+  Samples sample{};
+  for (int tap = 0; tap < TAPS; ++tap)
   {
-    const int index = std::clamp(axis.first + tap, 0, count - 1);
-    const std::uint8_t* const pixel = view.pixels + offset + static_cast<std::ptrdiff_t>(index) * stride;
+    const auto x = static_cast<std::size_t>(std::clamp(across.first + tap, 0, tile.width - 1));
     for (std::size_t c = 0; c < static_cast<std::size_t>(tile.channels); ++c)
     {
-      sample[c] = sample[c] + axis.weight[static_cast<std::size_t>(tap)] * static_cast<float>(pixel[c]);
+      sample[c] += mulFixed(across.weight[static_cast<std::size_t>(tap)],
+                            static_cast<int>(row[c * view.channel_stride + x]) << SAMPLE_SHIFT);
     }
   }
   return sample;
 }
 
-Values sampleAcross(const LinearizeTile& tile, const SampledView& view, const Axis& across, const Axis& down)
+Samples sampleRows(const LinearizeTile& tile, const Axis& down, const Samples (&rows)[TAPS])
 {
-  Values sample{};
-  for (int tap = 0; tap < 4; ++tap)
+  Samples sample{};
+  for (std::size_t tap = 0; tap < TAPS; ++tap)
   {
-    const int offset = std::clamp(down.first + tap, 0, tile.height - 1) * view.row_stride;
-    const Values line = sampleLine(tile, view, across, tile.width, view.pixel_stride, offset);
     for (std::size_t c = 0; c < static_cast<std::size_t>(tile.channels); ++c)
     {
-      sample[c] = sample[c] + down.weight[static_cast<std::size_t>(tap)] * line[c];
+      sample[c] += mulFixed(down.weight[tap], rows[tap][c]);
     }
   }
   return sample;
 }
 
-Values sampleView(const LinearizeTile& tile, const SampledView& view, int x)
+/// The pixels of a column without interpolation across.
+Samples pixelAt(const LinearizeTile& tile, const SampledView& view, int x, int y)
 {
-  const float d = tile.disparity[x];
-  const float at_x = static_cast<float>(x) + (view.offset_x - d * view.step_x);
-  const float at_y = static_cast<float>(tile.y) + (view.offset_y - d * view.step_y);
-  if (view.step_y == 0.0F && view.offset_y == 0.0F)
-  {
-    return sampleLine(tile, view, axisAt(at_x), tile.width, view.pixel_stride, tile.y * view.row_stride);
-  }
-  if (view.step_x == 0.0F && view.offset_x == 0.0F)
-  {
-    return sampleLine(tile, view, axisAt(at_y), tile.height, view.row_stride, x * view.pixel_stride);
-  }
-  return sampleAcross(tile, view, axisAt(at_x), axisAt(at_y));
-}
-
-/// Sum of the absolute differences to the reference; a grey image counts three times.
-float mismatch(const LinearizeTile& tile, const Values& sample, const Values& reference)
-{
-  float sum = 0.0F;
+  const std::uint8_t* const row = view.pixels + std::clamp(y, 0, tile.height - 1) * view.row_stride;
+  Samples sample{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(tile.channels); ++c)
   {
-    sum = sum + std::abs(sample[c] - reference[c]);
+    sample[c] = static_cast<int>(row[c * view.channel_stride + static_cast<std::size_t>(x)]) << SAMPLE_SHIFT;
   }
-  return sum * (3.0F / static_cast<float>(tile.channels));
+  return sample;
+}
+
+Samples sampleView(const LinearizeTile& tile, const SampledView& view, int x)
+{
+  const float d = tile.disparity[x];
+  const Axis across = axisAt(x, d, view.offset_x, view.step_x);
+  if (view.step_y == 0.0F && view.offset_y == 0.0F)
+  {
+    return sampleRow(tile, view, across, tile.y);
+  }
+  const Axis down = axisAt(tile.y, d, view.offset_y, view.step_y);
+  const bool in_column = view.step_x == 0.0F && view.offset_x == 0.0F;
+  Samples rows[TAPS];
+  for (int tap = 0; tap < TAPS; ++tap)
+  {
+    rows[tap] = in_column ? pixelAt(tile, view, x, down.first + tap)
+                          : sampleRow(tile, view, across, down.first + tap);
+  }
+  return sampleRows(tile, down, rows);
+}
+
+/// Sums over the views of a pixel; samples in units of 1 / SAMPLE_UNIT.
+struct MeanSums
+{
+  float total = 1.0F;
+  std::array<float, 3> difference{};
+};
+
+struct SpokeSums
+{
+  float residual = 0.0F;
+  float kk = 0.0F;
+  float weight = 0.0F;
+  std::array<float, 3> kr{};
+};
+
+void addView(const LinearizeTile& tile, const Samples& sample, const Samples& reference, float k,
+             MeanSums& mean, SpokeSums& spoke)
+{
+  const float channel_weight = 3.0F / static_cast<float>(tile.channels);
+  int mismatch = 0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(tile.channels); ++c)
+  {
+    mismatch += std::abs(sample[c] - reference[c]);
+  }
+  const float scale = tile.match_scale * tile.match_scale * (SAMPLE_UNIT * SAMPLE_UNIT);
+  const float e = static_cast<float>(mismatch) * channel_weight;
+  const float spread = e * e + scale;
+  const float softened = e + RESIDUAL_SOFTENING * SAMPLE_UNIT;
+  const float inverse = 1.0F / (spread * softened);
+  const float share = scale * softened * inverse;
+  const float in_mean = share * share;
+  const float weight_k = k * channel_weight * spread * inverse;
+  mean.total += in_mean;
+  spoke.residual += e;
+  spoke.kk += weight_k * k;
+  spoke.weight += weight_k;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(tile.channels); ++c)
+  {
+    const auto difference = static_cast<float>(sample[c] - reference[c]);
+    mean.difference[c] += in_mean * difference;
+    spoke.kr[c] += weight_k * difference;
+  }
 }
 
 void linearizePixel(const LinearizeTile& tile, std::size_t x)
 {
   const auto channels = static_cast<std::size_t>(tile.channels);
-  const float channel_weight = 3.0F / static_cast<float>(tile.channels);
-  const float scale = tile.match_scale * tile.match_scale;
   const std::size_t in_tile = x - static_cast<std::size_t>(tile.first);
-  Values reference{};
+  const auto momentsOf = [&](int spoke)
+  { return tile.moments + static_cast<std::size_t>(spoke) * SPOKE_MOMENTS * tile.stride + x; };
+  const auto weightOf = [&](int spoke) -> float&
+  { return tile.weights[static_cast<std::size_t>(spoke) * TILE_PIXELS + in_tile]; };
+  Samples reference{};
   for (std::size_t c = 0; c < channels; ++c)
   {
-    reference[c] = static_cast<float>(tile.reference[c * tile.reference_stride + x]);
+    reference[c] = static_cast<int>(tile.reference[c * tile.reference_stride + x]) << SAMPLE_SHIFT;
   }
-  const auto value_at = [&](int view, std::size_t c) -> float&
-  { return tile.values[(static_cast<std::size_t>(view) * channels + c) * TILE_PIXELS + in_tile]; };
-  Values mean = reference;
-  float total = 1.0F;
-  for (int view = 0; view < tile.view_count; ++view)
-  {
-    const Values sample = sampleView(tile, tile.views[view], static_cast<int>(x));
-    const float e = mismatch(tile, sample, reference);
-    const float share = scale / (e * e + scale);
-    const float weight = share * share;
-    total = total + weight;
-    for (std::size_t c = 0; c < channels; ++c)
-    {
-      value_at(view, c) = sample[c];
-      mean[c] = mean[c] + weight * sample[c];
-    }
-  }
-  for (std::size_t c = 0; c < channels; ++c)
-  {
-    mean[c] = mean[c] / total;
-    tile.refocused[c * tile.refocused_stride + x] = mean[c];
-  }
+  MeanSums mean;
   for (int spoke = 0; spoke < tile.spoke_count; ++spoke)
   {
-    std::array<float, SPOKE_MOMENTS> sums{};
+    SpokeSums sums;
     for (int view = tile.spokes[spoke].first; view < tile.spokes[spoke].last; ++view)
     {
-      Values sample{};
-      for (std::size_t c = 0; c < channels; ++c)
-      {
-        sample[c] = value_at(view, c);
-      }
-      const float e = mismatch(tile, sample, reference);
-      const float k = tile.views[view].position;
-      const float weight_k = channel_weight / (e + RESIDUAL_SOFTENING) * k;
-      sums[SPOKE_RESIDUAL] = sums[SPOKE_RESIDUAL] + e;
-      sums[SPOKE_KK] = sums[SPOKE_KK] + weight_k * k;
-      for (std::size_t c = 0; c < channels; ++c)
-      {
-        sums[SPOKE_KR + c] = sums[SPOKE_KR + c] + weight_k * (sample[c] - mean[c]);
-      }
+      const Samples sample = sampleView(tile, tile.views[view], static_cast<int>(x));
+      addView(tile, sample, reference, tile.views[view].position, mean, sums);
     }
-    float* const moments = tile.moments + static_cast<std::size_t>(spoke) * SPOKE_MOMENTS * tile.stride + x;
-    for (std::size_t moment = 0; moment < SPOKE_KR + channels; ++moment)
+    float* const moments = momentsOf(spoke);
+    moments[SPOKE_RESIDUAL * tile.stride] = sums.residual * (1.0F / SAMPLE_UNIT);
+    moments[SPOKE_KK * tile.stride] = sums.kk * SAMPLE_UNIT;
+    weightOf(spoke) = sums.weight;
+    for (std::size_t c = 0; c < channels; ++c)
     {
-      moments[moment * tile.stride] = sums[moment];
+      moments[(SPOKE_KR + c) * tile.stride] = sums.kr[c];
+    }
+  }
+  for (std::size_t c = 0; c < channels; ++c)
+  {
+    mean.difference[c] /= mean.total;
+    tile.refocused[c * tile.refocused_stride + x] =
+        (static_cast<float>(reference[c]) + mean.difference[c]) * (1.0F / SAMPLE_UNIT);
+    for (int spoke = 0; spoke < tile.spoke_count; ++spoke)
+    {
+      momentsOf(spoke)[(SPOKE_KR + c) * tile.stride] -= weightOf(spoke) * mean.difference[c];
     }
   }
 }

@@ -34,7 +34,7 @@ struct Linearizer::Scratch
   std::vector<float> refocused_rows;  // ring [row][channel][GRADIENT_PAD + x]
   std::vector<float> pair_rows;       // ring [row][pair][moment][x]
   std::vector<float> gradients;       // of one row: [direction][channel][x]
-  std::vector<float> samples;         // of one tile
+  std::vector<float> weights;         // of one tile
   std::vector<float> disparity;       // of one row, padded
   std::vector<const float*> row_pointers;
   std::vector<float> sums;       // over the rows of a window
@@ -72,7 +72,7 @@ public:
     scratch_.refocused_rows.resize(near_ring * refocusedStride() + GRADIENT_PAD);
     scratch_.pair_rows.resize(static_cast<std::size_t>(pair_ring_) * DIRECTION_PAIRS * pair_stride_);
     scratch_.gradients.resize(2 * channels_ * stride_);
-    scratch_.samples.resize(views.views.size() * channels_ * TILE_PIXELS);
+    scratch_.weights.resize(spokes_.spokes.size() * TILE_PIXELS);
     scratch_.disparity.assign(stride_, 0.0F);
     scratch_.sums.resize(pair_stride_);
     scratch_.solutions.resize(3 * stride_);
@@ -122,7 +122,9 @@ private:
 
   void sampleViews(int y) const
   {
-    std::copy_n(disparity_.ptr<float>(y), width_, scratch_.disparity.data());
+    std::copy_n(disparity_.ptr<float>(y), width_, scratch_.disparity.begin());
+    std::fill(scratch_.disparity.begin() + width_, scratch_.disparity.end(),
+              scratch_.disparity[static_cast<std::size_t>(width_) - 1]);
     LinearizeTile tile;
     tile.views = spokes_.views.data();
     tile.view_count = static_cast<int>(spokes_.views.size());
@@ -136,7 +138,7 @@ private:
     tile.disparity = scratch_.disparity.data();
     tile.y = y;
     tile.match_scale = settings_.match_scale;
-    tile.values = scratch_.samples.data();
+    tile.weights = scratch_.weights.data();
     tile.refocused = refocusedRow(y);
     tile.refocused_stride = stride_ + 2 * GRADIENT_PAD;
     tile.moments = spokeRow(y, 0);

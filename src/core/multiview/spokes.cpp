@@ -13,9 +13,12 @@ constexpr double SAME_DIRECTION = 1e-3;
 SampledView sampledView(const PreparedView& view)
 {
   SampledView sampled;
-  sampled.pixels = view.pixels.ptr<std::uint8_t>();
-  sampled.pixel_stride = static_cast<int>(view.pixels.elemSize());
-  sampled.row_stride = static_cast<int>(view.pixels.step);
+  const PlanarImage& image = view.image;
+  sampled.pixels = image.row(0);
+  sampled.channel_stride = image.channelStride();
+  sampled.row_stride = static_cast<std::ptrdiff_t>(image.channelStride()) * image.channels();
+  sampled.pad_before = image.pad();
+  sampled.pad_after = static_cast<int>(image.channelStride()) - image.pad() - image.width();
   sampled.step_x = static_cast<float>(view.steps.x);
   sampled.step_y = static_cast<float>(view.steps.y);
   sampled.offset_x = static_cast<float>(view.offset_px.x);

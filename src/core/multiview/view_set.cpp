@@ -99,20 +99,6 @@ void toPlanar(const cv::Mat& image, int pad, PlanarImage& planar)
   }
 }
 
-void toPixels(const cv::Mat& image, cv::Mat& pixels)
-{
-  if (image.channels() == 3)
-  {
-    cv::cvtColor(image, pixels, cv::COLOR_BGR2BGRA);
-  }
-  else
-  {
-    // A sample reads four bytes: one more row keeps the last ones inside.
-    pixels.create(image.rows + 1, image.cols, CV_8UC1);
-    image.copyTo(pixels.rowRange(0, image.rows));
-  }
-}
-
 }  // namespace
 
 void PlanarImage::create(int width, int height, int channels, int pad)
@@ -171,7 +157,6 @@ void prepareViews(const LightField& light_field, const ViewSetSettings& settings
     PreparedView& view = view_set.views[static_cast<std::size_t>(i)];
     const cv::Mat image = preparedImage(light_field.views[view.index].image, settings);
     toPlanar(image, pad, view.image);
-    toPixels(image, view.pixels);
   };
   pool.parallelFor(-1, static_cast<int>(order.size()), 1,
                    [&](int first, int last)

@@ -17,18 +17,26 @@ constexpr std::size_t SPOKE_KK = 1;
 constexpr std::size_t SPOKE_KR = 2;
 constexpr std::size_t SPOKE_MOMENTS = 5;
 
-/// A view to take samples of.
+/// Added to the residual of a view before its weight is taken, 1 / (residual + this).
+constexpr float RESIDUAL_SOFTENING = 2.0F;
+
+/// A view to take samples of. Its channels lie in planes.
 struct SampledView
 {
-  const std::uint8_t* pixels = nullptr;  ///< channels and, for colour, an unused byte
-  int pixel_stride = 4;                  ///< bytes from pixel to pixel; with 1, three bytes follow the last
-  int row_stride = 0;                    ///< bytes from row to row
+  const std::uint8_t* pixels = nullptr;  ///< pixel (0, 0) of the first channel
+  std::size_t channel_stride = 0;        ///< bytes from one channel of a row to the next
+  std::ptrdiff_t row_stride = 0;         ///< bytes from row to row
+  int pad_before = 0;                    ///< pixels before each row that repeat its first
+  int pad_after = 0;                     ///< after each row, likewise; at least VECTOR_ROOM
   float step_x = 0.0F;  ///< pixel (x, y) is seen at x + offset_x - disparity * step_x, likewise y
   float step_y = 0.0F;
   float offset_x = 0.0F;
   float offset_y = 0.0F;
   float position = 0.0F;  ///< k
 };
+
+/// Pixels that a vector may read past the end of a row.
+constexpr int VECTOR_ROOM = 32;
 
 /// Views that stand on one ray from the reference, as a range of views.
 struct Spoke
@@ -47,13 +55,14 @@ struct LinearizeTile
   int width = 0;  ///< of every view
   int height = 0;
   int channels = 3;
-  const std::uint8_t* reference = nullptr;  ///< pixel 0 of the reference's row, channels one plane apart
+  const std::uint8_t* reference = nullptr;  ///< pixel 0 of the reference's row, VECTOR_ROOM after its end
   std::size_t reference_stride = 0;
-  const float* disparity = nullptr;  ///< of the reference's row, readable up to `stride`
-  int first = 0;                     ///< pixels first .. first + TILE_PIXELS - 1 of the row y
+  /// Of the reference's row, readable up to `stride`. No pixel is seen 16000 pixels away.
+  const float* disparity = nullptr;
+  int first = 0;  ///< pixels first .. first + TILE_PIXELS - 1 of the row y
   int y = 0;
   float match_scale = 12.0F;   ///< differences to the reference above this lose their share of the mean
-  float* values = nullptr;     ///< scratch, [view_count][channels][TILE_PIXELS]
+  float* weights = nullptr;    ///< scratch, [spoke_count][TILE_PIXELS]
   float* refocused = nullptr;  ///< [channels][refocused_stride], of the row: mean of the views that agree
   std::size_t refocused_stride = 0;
   float* moments = nullptr;  ///< [spoke_count][SPOKE_MOMENTS][stride], of the row

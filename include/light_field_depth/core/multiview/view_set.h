@@ -15,8 +15,8 @@
 namespace light_field_depth::multiview
 {
 /// One 8-bit image as planes: row after row, and in each row channel after channel, so that the channels of
-/// a pixel row lie together. Every row has `pad` replicated pixels on its left and at least `pad` on its
-/// right.
+/// a pixel row lie together. Every row has `pad` replicated pixels on its left and more than that, by
+/// at least 64, on its right.
 class PlanarImage
 {
 public:
@@ -77,7 +77,6 @@ struct Arm
 struct PreparedView
 {
   PlanarImage image;
-  cv::Mat pixels;         ///< the same, CV_8UC1 or CV_8UC4 (the fourth byte is unused), for single samples
   cv::Point2d steps;      ///< View::steps
   cv::Point2d offset_px;  ///< View::offset_px
   /// Distance from the reference in grid steps, signed: negative in the directions 4..7.
