@@ -7,6 +7,7 @@
 
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 #include "light_field_depth/core/multiview/normal_equations.h"
+#include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview
 {
@@ -25,7 +26,14 @@ std::vector<float> randomRows(std::size_t rows, float low, float high)
   return values;
 }
 
-TEST(NormalEquations, RowsAndWindowsAreSummedInOrder)
+class NormalEquations : public testing::InstructionSetTest
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, NormalEquations, testing::everyInstructionSet(),
+                         testing::instructionSetName);
+
+TEST_P(NormalEquations, RowsAndWindowsAreSummedInOrder)
 {
   const auto values = randomRows(3, -100.0F, 100.0F);
   const std::vector<const float*> rows = {values.data(), values.data() + STRIDE, values.data() + 2 * STRIDE};
@@ -51,7 +59,7 @@ TEST(NormalEquations, RowsAndWindowsAreSummedInOrder)
   }
 }
 
-TEST(NormalEquations, AWindowWiderThanTheRowRepeatsItsEnds)
+TEST_P(NormalEquations, AWindowWiderThanTheRowRepeatsItsEnds)
 {
   const std::vector<float> row = {1.0F, 2.0F, 4.0F};
   std::vector<float> box(3);
@@ -59,7 +67,7 @@ TEST(NormalEquations, AWindowWiderThanTheRowRepeatsItsEnds)
   EXPECT_EQ(box, (std::vector<float>{1 * 5 + 2 + 4 * 3, 1 * 4 + 2 + 4 * 4, 1 * 3 + 2 + 4 * 5}));
 }
 
-TEST(NormalEquations, DifferencesOfFourPixelsAreExactOnACubic)
+TEST_P(NormalEquations, DifferencesOfFourPixelsAreExactOnACubic)
 {
   const auto cubic = [](double t) { return 0.5 * t * t * t - t * t + 3.0 * t; };
   const auto slope = [](double t) { return 1.5 * t * t - 2.0 * t + 3.0; };
@@ -89,7 +97,7 @@ TEST(NormalEquations, DifferencesOfFourPixelsAreExactOnACubic)
 
 /// Views of brightness offset + slope of each channel * k, whose points have moved by `step` px of disparity:
 /// what the moments say, and the step that the equations give back.
-TEST(NormalEquations, FindTheStepUnderABrightnessThatChangesWithThePosition)
+TEST_P(NormalEquations, FindTheStepUnderABrightnessThatChangesWithThePosition)
 {
   constexpr float step = 0.05F;
   const std::vector<float> positions = {-2.0F, -1.0F, 1.0F, 2.0F};
@@ -110,7 +118,7 @@ TEST(NormalEquations, FindTheStepUnderABrightnessThatChangesWithThePosition)
       }
     }
   }
-  std::vector<float> pair(MOMENTS * STRIDE);
+  std::vector<float> pair(momentCount(CHANNELS) * STRIDE);
   SpokeRow spoke;
   spoke.moments = moments.data();
   spoke.share = share.data();
@@ -121,8 +129,8 @@ TEST(NormalEquations, FindTheStepUnderABrightnessThatChangesWithThePosition)
   spoke.stride = STRIDE;
   addSpoke(spoke, pair.data());
   // Two columns of different gradient share one step; the slope of the brightness is theirs alone to explain.
-  std::vector<float> window(MOMENTS * STRIDE);
-  for (std::size_t moment = 0; moment < MOMENTS; ++moment)
+  std::vector<float> window(momentCount(CHANNELS) * STRIDE);
+  for (std::size_t moment = 0; moment < momentCount(CHANNELS); ++moment)
   {
     boxRow(pair.data() + moment * STRIDE, WIDTH, 1, window.data() + moment * STRIDE);
   }
@@ -147,7 +155,7 @@ TEST(NormalEquations, FindTheStepUnderABrightnessThatChangesWithThePosition)
   }
 }
 
-TEST(NormalEquations, TheBestArmHasTheWholeShare)
+TEST_P(NormalEquations, TheBestArmHasTheWholeShare)
 {
   std::vector<float> lowest(STRIDE, 100.0F);
   auto good = randomRows(1, 1.0F, 2.0F);

@@ -12,7 +12,10 @@ namespace light_field_depth::multiview
 {
 namespace HWY_NAMESPACE
 {
-// Plain loops that the compiler turns into the vectors of each instruction set.
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::CappedTag<float, 16>;
+
+// Where vectors are not spelt out, the compiler turns plain loops into those of each instruction set.
 
 HWY_INLINE float smaller(float a, float b)
 {
@@ -27,18 +30,29 @@ HWY_INLINE int clampedColumn(int x, int width)
 void sumRowsLoop(const float* const* HWY_RESTRICT rows, int row_count, std::size_t count,
                  float* HWY_RESTRICT sums)
 {
-  const float* HWY_RESTRICT first = rows[0];
-  for (std::size_t i = 0; i < count; ++i)
+  const Floats f;
+  const std::size_t lanes = hn::Lanes(f);
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= count; i += 2 * lanes)
   {
-    sums[i] = first[i];
-  }
-  for (int row = 1; row < row_count; ++row)
-  {
-    const float* HWY_RESTRICT next = rows[row];
-    for (std::size_t i = 0; i < count; ++i)
+    auto low = hn::LoadU(f, rows[0] + i);
+    auto high = hn::LoadU(f, rows[0] + i + lanes);
+    for (int row = 1; row < row_count; ++row)
     {
-      sums[i] += next[i];
+      low = hn::Add(low, hn::LoadU(f, rows[row] + i));
+      high = hn::Add(high, hn::LoadU(f, rows[row] + i + lanes));
     }
+    hn::StoreU(low, f, sums + i);
+    hn::StoreU(high, f, sums + i + lanes);
+  }
+  for (; i < count; ++i)
+  {
+    float sum = rows[0][i];
+    for (int row = 1; row < row_count; ++row)
+    {
+      sum += rows[row][i];
+    }
+    sums[i] = sum;
   }
 }
 
@@ -60,16 +74,21 @@ void boxRowLoop(const float* HWY_RESTRICT in, int width, int radius, float* HWY_
     out[x] = clampedSum(in, width, radius, x);
     out[width - 1 - x] = clampedSum(in, width, radius, width - 1 - x);
   }
-  for (int x = edge; x < width - edge; ++x)
+  const Floats f;
+  const int lanes = static_cast<int>(hn::Lanes(f));
+  int x = edge;
+  for (; x + lanes <= width - edge; x += lanes)
   {
-    out[x] = 0.0F;
-  }
-  for (int dx = -radius; dx <= radius; ++dx)
-  {
-    for (int x = edge; x < width - edge; ++x)
+    auto sum = hn::LoadU(f, in + x - radius);
+    for (int dx = 1 - radius; dx <= radius; ++dx)
     {
-      out[x] += in[x + dx];
+      sum = hn::Add(sum, hn::LoadU(f, in + x + dx));
     }
+    hn::StoreU(sum, f, out + x);
+  }
+  for (; x < width - edge; ++x)
+  {
+    out[x] = clampedSum(in, width, radius, x);
   }
 }
 
@@ -153,12 +172,9 @@ void addSpokeLoop(const SpokeRow& spoke, float* pair)
     addChannelLoop(spoke.share, moment_kk, spoke.moments + SPOKE_KR * stride + channel,
                    spoke.along_x + channel, spoke.along_y + channel, spoke.direction_x, spoke.direction_y,
                    spoke.width, pair + MOMENT_GG * stride, pair + MOMENT_GR * stride,
-                   pair + MOMENT_KG * stride + channel, pair + MOMENT_KR * stride + channel);
+                   pair + MOMENT_KG * stride + channel, pair + momentKr(spoke.channels) * stride + channel);
   }
 }
-
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, 16>;
 
 void addPairLoop(const PairRow& pair, const SolutionRow& solution)
 {
@@ -176,7 +192,7 @@ void addPairLoop(const PairRow& pair, const SolutionRow& solution)
     for (std::size_t c = 0; c < static_cast<std::size_t>(pair.channels); ++c)
     {
       const auto kg = hn::LoadU(f, moments + (MOMENT_KG + c) * stride);
-      const auto kr = hn::LoadU(f, moments + (MOMENT_KR + c) * stride);
+      const auto kr = hn::LoadU(f, moments + (momentKr(pair.channels) + c) * stride);
       const auto eliminated = hn::Mul(kg, inverse);
       curvature = hn::Sub(curvature, hn::Mul(eliminated, kg));
       gradient = hn::Add(gradient, hn::Mul(eliminated, kr));

@@ -54,8 +54,9 @@ public:
       : views_(views), spokes_(spokes), disparity_(disparity), settings_(settings), scratch_(scratch),
         result_(result), width_(views.width()), height_(views.height()), arms_(views.arms.size()),
         channels_(static_cast<std::size_t>(views.reference.channels())),
-        stride_(roundUp(width_, TILE_PIXELS)), pair_stride_(MOMENTS * stride_),
-        near_ring_(2 * RESIDUAL_RADIUS + 1), pair_ring_(2 * settings.window_radius + 1)
+        stride_(roundUp(width_, TILE_PIXELS)), moments_(momentCount(views.reference.channels())),
+        pair_stride_(moments_ * stride_), near_ring_(2 * RESIDUAL_RADIUS + 1),
+        pair_ring_(2 * settings.window_radius + 1)
   {
     for (int pair = 0; pair < DIRECTION_PAIRS; ++pair)
     {
@@ -76,7 +77,7 @@ public:
     scratch_.disparity.assign(stride_, 0.0F);
     scratch_.sums.resize(pair_stride_);
     scratch_.solutions.resize(3 * stride_);
-    scratch_.columns.resize(std::max(MOMENTS, arms_ + 1) * stride_);
+    scratch_.columns.resize(std::max(moments_, arms_ + 1) * stride_);
   }
 
   void run(int first, int last)
@@ -250,7 +251,7 @@ private:
       scratch_.row_pointers.push_back(pairRow(std::clamp(y + dy, 0, height_ - 1), pair));
     }
     sumRows(scratch_.row_pointers.data(), 2 * radius + 1, pair_stride_, scratch_.sums.data());
-    for (std::size_t moment = 0; moment < MOMENTS; ++moment)
+    for (std::size_t moment = 0; moment < moments_; ++moment)
     {
       boxRow(scratch_.sums.data() + moment * stride_, width_, radius,
              scratch_.columns.data() + moment * stride_);
@@ -297,7 +298,8 @@ private:
   int height_;
   std::size_t arms_;
   std::size_t channels_;
-  std::size_t stride_;  ///< of one row of numbers
+  std::size_t stride_;   ///< of one row of numbers
+  std::size_t moments_;  ///< of a pair
   std::size_t pair_stride_;
   std::vector<int> pairs_;  ///< the directions, modulo their opposites, in which there are views
   int first_ = 0;

@@ -12,8 +12,14 @@ constexpr std::size_t MOMENT_GG = 0;
 constexpr std::size_t MOMENT_GR = 1;
 constexpr std::size_t MOMENT_KK = 2;
 constexpr std::size_t MOMENT_KG = 3;
-constexpr std::size_t MOMENT_KR = 6;
-constexpr std::size_t MOMENTS = 9;
+constexpr std::size_t momentKr(int channels)
+{
+  return MOMENT_KG + static_cast<std::size_t>(channels);
+}
+constexpr std::size_t momentCount(int channels)
+{
+  return momentKr(channels) + static_cast<std::size_t>(channels);
+}
 
 /// A row of the refocused mean with the rows two above to two below; each readable two pixels beyond its
 /// ends.
@@ -42,7 +48,7 @@ struct SpokeRow
 /// The normal equations of one pair of arms at one row, summed over a window.
 struct PairRow
 {
-  const float* moments = nullptr;  ///< [MOMENTS][stride]
+  const float* moments = nullptr;  ///< [momentCount(channels)][stride]
   bool brightness_slope = true;
   int channels = 3;
   int width = 0;
@@ -81,7 +87,7 @@ void scaleAndLower(float factor, float offset, int width, float* values, float* 
 void shareOfArm(const float* lowest, int width, float* values);
 /// By differences of four pixels.
 void differentiate(const DerivativeRow& row);
-/// Adds a spoke to the moments [MOMENTS][stride] of its pair.
+/// Adds a spoke to the moments [momentCount(channels)][stride] of its pair.
 void addSpoke(const SpokeRow& spoke, float* pair);
 /// Eliminates the slope of the brightness and adds the pair to the solution.
 void addPair(const PairRow& pair, const SolutionRow& solution);
