@@ -9,11 +9,10 @@ namespace
 constexpr double FLOAT = 4.0;   // bytes
 constexpr double WORD = 2.0;    // bytes
 constexpr double PLANAR = 3.0;  // bytes of a pixel, three channels in planes
-constexpr double PACKED = 4.0;  // bytes of a pixel for single samples
 
 StageWork prepare(const FrameSize& frame)
 {
-  const double per_view = frame.channels + PLANAR + frame.channels + PACKED;  // two copies of each view
+  const double per_view = frame.channels + PLANAR;
   return {"prepare", frame.pixels * (frame.views * per_view + frame.channels + PLANAR), 0.0, Lane::None};
 }
 
@@ -65,10 +64,10 @@ StageWork median(const FrameSize& frame)
 StageWork linearize(const FrameSize& frame)
 {
   constexpr double results = 4.0 * FLOAT;
-  // Position and weights; four taps of three channels, unpacked, times weight; difference to the reference
-  // and share of the mean; the moments.
-  constexpr double per_view = 22.0 + 4.0 * 17.0 + 18.0 + 25.0;
-  return {"linearize", frame.refinements * frame.pixels * (PACKED * frame.views + PLANAR + FLOAT + results),
+  // In words, twice as many of which fit a vector: weights, four taps of three channels, differences to the
+  // reference. In floats: position, shares, moments.
+  constexpr double per_view = (14.0 + 4.0 * 9.0 + 9.0) / 2.0 + 7.0 + 35.0;
+  return {"linearize", frame.refinements * frame.pixels * (PLANAR * (frame.views + 1.0) + FLOAT + results),
           frame.refinements * frame.pixels * frame.views * per_view, Lane::Float};
 }
 

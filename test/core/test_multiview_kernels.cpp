@@ -13,6 +13,7 @@
 #include "light_field_depth/core/multiview/sample_rows.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview/visibility_kernels.h"
+#include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview
 {
@@ -53,7 +54,14 @@ Values firstPart(const Values& values, std::size_t count)
   return Values(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-TEST(MultiviewKernels, WarpTargetsEqualThePlainVersion)
+class MultiviewKernels : public testing::InstructionSetTest
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, MultiviewKernels, testing::everyInstructionSet(),
+                         testing::instructionSetName);
+
+TEST_P(MultiviewKernels, WarpTargetsEqualThePlainVersion)
 {
   Random random;
   const auto disparity = random.floats(WIDTH, -3.0F, 3.0F);
@@ -72,7 +80,7 @@ TEST(MultiviewKernels, WarpTargetsEqualThePlainVersion)
   }
 }
 
-TEST(MultiviewKernels, InterpolationEqualsThePlainVersion)
+TEST_P(MultiviewKernels, InterpolationEqualsThePlainVersion)
 {
   Random random;
   const auto row = random.bytes(STRIDE);
@@ -88,7 +96,7 @@ TEST(MultiviewKernels, InterpolationEqualsThePlainVersion)
   }
 }
 
-TEST(MultiviewKernels, InterpolationKeepsARamp)
+TEST_P(MultiviewKernels, InterpolationKeepsARamp)
 {
   std::vector<std::uint8_t> row(STRIDE);
   for (std::size_t i = 0; i < row.size(); ++i)
@@ -123,7 +131,7 @@ struct Views
   std::vector<const std::uint8_t*> surface_rows;
 };
 
-TEST(MultiviewKernels, ArmCostEqualsThePlainVersion)
+TEST_P(MultiviewKernels, ArmCostEqualsThePlainVersion)
 {
   struct Case
   {
@@ -165,7 +173,7 @@ TEST(MultiviewKernels, ArmCostEqualsThePlainVersion)
   }
 }
 
-TEST(MultiviewKernels, VisibleCostEqualsThePlainVersion)
+TEST_P(MultiviewKernels, VisibleCostEqualsThePlainVersion)
 {
   for (const int truncation : {20, 30, 60})
   {
@@ -288,15 +296,15 @@ private:
   std::vector<SampledView> views_;
 };
 
-TEST(MultiviewKernels, LinearizationEqualsThePlainVersion)
+TEST_P(MultiviewKernels, LinearizationEqualsThePlainVersion)
 {
   for (const int channels : {1, 3})
   {
     for (const float steepness : {0.0F, 0.01F, 0.2F, 6.0F})
     {
       const LinearizationCase views(channels, steepness);
-      const auto simd = views.run(linearizeTile);
       const auto plain = views.run(linearizeTilePlain);
+      const auto simd = views.run(linearizeTile);
       ASSERT_EQ(simd.size(), plain.size());
       for (std::size_t i = 0; i < simd.size(); ++i)
       {
@@ -307,7 +315,7 @@ TEST(MultiviewKernels, LinearizationEqualsThePlainVersion)
   }
 }
 
-TEST(MultiviewKernels, TapsInterpolateAndAddUpToOne)
+TEST(CubicTaps, InterpolateAndAddUpToOne)
 {
   for (int i = 0; i < 1000; ++i)
   {
