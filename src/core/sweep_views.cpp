@@ -8,6 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/noise_estimate.h"
 
 namespace light_field_depth
@@ -114,10 +115,9 @@ cv::Mat halve(const cv::Mat& image, int times)
   cv::Mat result = image;
   for (int i = 0; i < times; ++i)
   {
-    const cv::Size half(result.cols / 2, result.rows / 2);
-    cv::Mat halved;
-    cv::resize(result(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), halved, half, 0, 0, cv::INTER_AREA);
-    result = halved;
+    cv::Mat half;
+    multiview::halveChannels(result, half);
+    result = half;
   }
   return result;
 }

@@ -31,7 +31,8 @@ float largestDisparity(const std::vector<Arm>& arms, float max_displacement_px);
 /// How often a view is halved before its longer side would be less than side_px.
 int halvingsFor(const cv::Size& size, int side_px);
 
-/// Half the size so many times, each pixel the mean of four. An odd row or column at the end is left out.
+/// Half the size so many times, each pixel the mean of four. 8 bits, one or three channels. An odd row or
+/// column at the end is left out.
 /// @return the image itself, sharing its pixels, for 0 times
 cv::Mat halve(const cv::Mat& image, int times);
 

@@ -47,6 +47,40 @@ TEST(HalfResolution, RowsEqualThePlainVersion)
   }
 }
 
+TEST(HalfResolution, RowsOfAllChannelsEqualThePlainVersion)
+{
+  for (const int channels : {1, 3})
+  {
+    for (const int width : {1, 7, 64, 203})
+    {
+      const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+      const auto pixels = randomBytes(4 * count);
+      std::vector<std::uint8_t> fast(count);
+      std::vector<std::uint8_t> plain(count);
+      halveChannelsRow(pixels.data(), pixels.data() + 2 * count, channels, width, fast.data());
+      halveChannelsRowPlain(pixels.data(), pixels.data() + 2 * count, channels, width, plain.data());
+      EXPECT_EQ(fast, plain) << channels << " channels, width " << width;
+    }
+  }
+}
+
+TEST(HalfResolution, KeepsColoursAndLeavesOddEndsOut)
+{
+  for (const int type : {CV_8UC1, CV_8UC3})
+  {
+    const cv::Size size(203, 41);
+    cv::Mat image(size, type);
+    cv::RNG random(6);
+    random.fill(image, cv::RNG::UNIFORM, 0, 256);
+    cv::Mat half;
+    halveChannels(image, half);
+    cv::Mat expected;
+    cv::resize(image(cv::Rect(0, 0, 202, 40)), expected, cv::Size(101, 20), 0, 0, cv::INTER_AREA);
+    ASSERT_EQ(half.size(), expected.size());
+    EXPECT_EQ(cv::norm(half, expected, cv::NORM_INF), 0.0);
+  }
+}
+
 TEST(HalfResolution, IsTheMeanBrightnessOfFourPixels)
 {
   auto settings = testing::SceneSettings();

@@ -6,7 +6,7 @@ namespace
 {
 constexpr int VIEWS_PER_CHUNK = 1;
 
-void reduceImage(const cv::Mat& image, cv::Mat& half)
+void halveInGrey(const cv::Mat& image, cv::Mat& half)
 {
   half.create(image.rows / 2, image.cols / 2, CV_8UC1);
   for (int y = 0; y < half.rows; ++y)
@@ -18,12 +18,33 @@ void reduceImage(const cv::Mat& image, cv::Mat& half)
 
 }  // namespace
 
+void halveChannels(const cv::Mat& image, cv::Mat& half)
+{
+  half.create(image.rows / 2, image.cols / 2, image.type());
+  for (int y = 0; y < half.rows; ++y)
+  {
+    halveChannelsRow(image.ptr<std::uint8_t>(2 * y), image.ptr<std::uint8_t>(2 * y + 1), image.channels(),
+                     half.cols, half.ptr<std::uint8_t>(y));
+  }
+}
+
 const LightField& HalfResolution::reduce(const LightField& light_field, ThreadPool& pool)
+{
+  return reduceWith(halveInGrey, light_field, pool);
+}
+
+const LightField& HalfResolution::reduceInColour(const LightField& light_field, ThreadPool& pool)
+{
+  return reduceWith(halveChannels, light_field, pool);
+}
+
+const LightField& HalfResolution::reduceWith(HalveImage halve_image, const LightField& light_field,
+                                             ThreadPool& pool)
 {
   half_.reference_index = light_field.reference_index;
   half_.views.resize(light_field.views.size());
   pool.parallelFor(0, static_cast<int>(light_field.views.size()), VIEWS_PER_CHUNK,
-                   [&](int first, int last)
+                   [&, halve_image](int first, int last)
                    {
                      for (int i = first; i < last; ++i)
                      {
@@ -32,7 +53,7 @@ const LightField& HalfResolution::reduce(const LightField& light_field, ThreadPo
                        half.grid = view.grid;
                        half.steps = 0.5 * view.steps;
                        half.offset_px = 0.5 * view.offset_px;
-                       reduceImage(view.image, half.image);
+                       halve_image(view.image, half.image);
                      }
                    });
   return half_;

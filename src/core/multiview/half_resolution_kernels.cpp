@@ -32,6 +32,12 @@ void halveRowSimd(const std::uint8_t* upper, const std::uint8_t* lower, int chan
 {
   halveRowPlain(upper, lower, channels, width, half);
 }
+
+void halveChannelsRowSimd(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
+                          std::uint8_t* half)
+{
+  halveChannelsRowPlain(upper, lower, channels, width, half);
+}
 #else
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -109,6 +115,45 @@ void halveRowSimd(const std::uint8_t* upper, const std::uint8_t* lower, int chan
   halveRowPlain(upper + offset, lower + offset, channels, width - done, half + done);
 }
 
+/// Of each channel by itself.
+int halveThreeChannels(const std::uint8_t* upper, const std::uint8_t* lower, int width, std::uint8_t* half)
+{
+  const Bytes bytes;
+  const HalfBytes half_bytes;
+  const Words words;
+  const hn::RebindToSigned<Words> to_signed;
+  const int lanes = static_cast<int>(hn::Lanes(words));
+  const auto mean = [=](hn::Vec<Bytes> a, hn::Vec<Bytes> b) HWY_ATTR
+  {
+    const auto sum = hn::Add(hn::Add(pairSums(a), pairSums(b)), hn::Set(words, 2));
+    return hn::DemoteTo(half_bytes, hn::BitCast(to_signed, hn::ShiftRight<2>(sum)));
+  };
+  int x = 0;
+  for (; x + lanes <= width; x += lanes)
+  {
+    hn::Vec<Bytes> a0;
+    hn::Vec<Bytes> a1;
+    hn::Vec<Bytes> a2;
+    hn::Vec<Bytes> b0;
+    hn::Vec<Bytes> b1;
+    hn::Vec<Bytes> b2;
+    hn::LoadInterleaved3(bytes, upper + static_cast<std::ptrdiff_t>(x) * 6, a0, a1, a2);
+    hn::LoadInterleaved3(bytes, lower + static_cast<std::ptrdiff_t>(x) * 6, b0, b1, b2);
+    hn::StoreInterleaved3(mean(a0, b0), mean(a1, b1), mean(a2, b2), half_bytes,
+                          half + static_cast<std::ptrdiff_t>(x) * 3);
+  }
+  return x;
+}
+
+void halveChannelsRowSimd(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
+                          std::uint8_t* half)
+{
+  const int done =
+      channels == 3 ? halveThreeChannels(upper, lower, width, half) : halveGrey(upper, lower, width, half);
+  const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(done) * channels;
+  halveChannelsRowPlain(upper + 2 * offset, lower + 2 * offset, channels, width - done, half + offset);
+}
+
 #endif  // HWY_TARGET == HWY_SCALAR
 }  // namespace HWY_NAMESPACE
 }  // namespace light_field_depth::multiview
@@ -118,6 +163,7 @@ HWY_AFTER_NAMESPACE();
 namespace light_field_depth::multiview
 {
 HWY_EXPORT(halveRowSimd);
+HWY_EXPORT(halveChannelsRowSimd);
 
 void halveRow(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
               std::uint8_t* half)
@@ -145,6 +191,27 @@ void halveRowPlain(const std::uint8_t* upper, const std::uint8_t* lower, int cha
     { return ((sum_at(x, channel) << SUM_SHIFT) * weight) >> 16U; };
     const std::uint32_t sum = share(0, BLUE_SHARE) + share(1, GREEN_SHARE) + share(2, RED_SHARE);
     half[x] = static_cast<std::uint8_t>((sum + (1U << (FRACTION_SHIFT - 1))) >> FRACTION_SHIFT);
+  }
+}
+
+void halveChannelsRow(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
+                      std::uint8_t* half)
+{
+  HWY_DYNAMIC_DISPATCH(halveChannelsRowSimd)(upper, lower, channels, width, half);
+}
+
+void halveChannelsRowPlain(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
+                           std::uint8_t* half)
+{
+  for (int x = 0; x < width; ++x)
+  {
+    for (int channel = 0; channel < channels; ++channel)
+    {
+      const std::ptrdiff_t left = static_cast<std::ptrdiff_t>(x) * 2 * channels + channel;
+      const std::ptrdiff_t right = left + channels;
+      const int sum = upper[left] + upper[right] + lower[left] + lower[right];
+      half[static_cast<std::ptrdiff_t>(x) * channels + channel] = static_cast<std::uint8_t>((sum + 2) / 4);
+    }
   }
 }
 
