@@ -25,8 +25,6 @@ constexpr int SMALL_SIDE_PX = 96;
 constexpr int LEAST_SIDE_PX = 32;
 /// Spacing of the labels, in pixels of the reduced views, in the farthest view.
 constexpr float LABEL_DISPLACEMENT = 0.5F;
-/// How far a point may move between neighbouring views.
-constexpr float MAX_DISPLACEMENT_PX = 48.0F;
 /// More pairs of a view cost time only.
 constexpr std::size_t MOST_PAIRS = 1000;
 /// Means of several pixels outside may have had values that were cut off.
@@ -89,9 +87,9 @@ struct Match
 class ExposureFinder
 {
 public:
-  ExposureFinder(const LightField& light_field, ThreadPool& pool)
-      : light_field_(light_field), pool_(pool), arms_(armsOf(light_field)),
-        halvings_(halvingsFor(light_field.size(), SMALL_SIDE_PX)),
+  ExposureFinder(const LightField& light_field, ThreadPool& pool, float max_displacement_px)
+      : light_field_(light_field), pool_(pool), max_displacement_px_(max_displacement_px),
+        arms_(armsOf(light_field)), halvings_(halvingsFor(light_field.size(), SMALL_SIDE_PX)),
         scale_(static_cast<float>(std::ldexp(1.0, -halvings_))), small_(light_field.views.size()),
         exposed_(light_field.views.size()), normalized_(light_field.views.size())
   {
@@ -163,7 +161,7 @@ private:
 
   std::vector<Match> findMatches() const
   {
-    const float most = largestDisparity(arms_, MAX_DISPLACEMENT_PX);
+    const float most = largestDisparity(arms_, max_displacement_px_);
     const double nearest = nearestDistance(arms_);
     PlaneSweep plan = planSweep({-most, most}, nearest);
     for (const Arm& arm : arms_)
@@ -245,6 +243,7 @@ private:
 
   const LightField& light_field_;
   ThreadPool& pool_;
+  float max_displacement_px_;
   std::vector<Arm> arms_;
   int halvings_;
   float scale_;                      ///< of the reduced views
@@ -255,7 +254,8 @@ private:
 
 }  // namespace
 
-std::vector<ViewExposure> estimateExposure(const LightField& light_field, ThreadPool& pool)
+std::vector<ViewExposure> estimateExposure(const LightField& light_field, ThreadPool& pool,
+                                           float max_displacement_px)
 {
   if (light_field.reference().image.depth() != CV_8U)
   {
@@ -265,7 +265,7 @@ std::vector<ViewExposure> estimateExposure(const LightField& light_field, Thread
   {
     return std::vector<ViewExposure>(light_field.views.size());
   }
-  return ExposureFinder(light_field, pool).find();
+  return ExposureFinder(light_field, pool, max_displacement_px).find();
 }
 
 }  // namespace light_field_depth

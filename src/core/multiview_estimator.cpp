@@ -41,6 +41,15 @@ constexpr int LEAST_HALVED_SIDE_PX = 32;
 /// Of half the resolution: smaller views are not halved again to measure the scene.
 constexpr int LEAST_QUARTERED_SIDE_PX = 96;
 constexpr int FAST_VIEWS_PER_ARM = 3;
+/// The searches for exposure and range halve larger views at least once, each for itself.
+constexpr int LEAST_LONGER_SIDE_MEASURED_HALVED_PX = 384;
+constexpr int LEAST_SHORTER_SIDE_MEASURED_HALVED_PX = 64;
+
+bool isMeasuredHalved(const cv::Size& size)
+{
+  return std::max(size.width, size.height) >= LEAST_LONGER_SIDE_MEASURED_HALVED_PX &&
+         std::min(size.width, size.height) >= LEAST_SHORTER_SIDE_MEASURED_HALVED_PX;
+}
 
 bool isLarge(const LightField& light_field)
 {
@@ -138,6 +147,7 @@ struct MultiviewEstimator::Buffers
   multiview::Sequence sequence;
   multiview::Solver solver;
   multiview::HalfResolution half;
+  multiview::HalfResolution measured_half;
   multiview::HalfResolution quarter;
   multiview::HalfResolution coarse_half;
   multiview::Solver coarse_solver;
@@ -224,16 +234,23 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
 LightField MultiviewEstimator::measure(const LightField& views, const EstimateRequest& request,
                                        RunContext& context, SceneMeasures& measures)
 {
+  const bool halved = isMeasuredHalved(views.size());
+  DisparityRangeOptions range_options;
+  range_options.max_displacement_px *= halved ? 0.5F : 1.0F;
   LightField chosen;
+  LightField small;
   {
     const StageTimer timer(context, "exposure");
-    measures.exposures = estimateExposure(views, context.pool);
+    small = halved ? buffers_->measured_half.reduceInColour(views, context.pool) : views;
+    measures.exposures = estimateExposure(small, context.pool, range_options.max_displacement_px);
     chosen = compensateExposure(views, measures.exposures, context.pool);
   }
   {
     const StageTimer timer(context, "range");
-    measures.range =
-        request.disparity_range ? *request.disparity_range : findDisparityRange(chosen, context.pool);
+    measures.range = request.disparity_range
+                         ? *request.disparity_range
+                         : findDisparityRange(compensateExposure(small, measures.exposures, context.pool),
+                                              context.pool, range_options);
   }
   const StageTimer timer(context, "noise");
   measures.noise_sigma = estimateNoise(chosen.reference().image);

@@ -31,11 +31,14 @@ struct ViewExposure
 /// ms for 17 views of 512 x 512 pixels in colour on two threads.
 ///
 /// @param light_field of 8-bit views; see toEightBit()
+/// @param max_displacement_px how far a point may move between the reference view and the view nearest to it;
+///   see DisparityRangeOptions
 /// @return one entry for each view. A view is left as it is (differs is false) where the change would be less
 ///   than half a grey level, where the matched points do not clearly ask for it or are too few, and in light
 ///   fields of less than 32 pixels in height or width. Independent of the number of threads.
 /// @throw InputError if the views do not have 8 bits
-std::vector<ViewExposure> estimateExposure(const LightField& light_field, ThreadPool& pool);
+std::vector<ViewExposure> estimateExposure(const LightField& light_field, ThreadPool& pool,
+                                           float max_displacement_px = 48.0F);
 
 /// The light field with the brightness of every view as the reference's. Images of views that do not differ
 /// are shared, the others are new.
