@@ -7,9 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include <opencv2/imgproc.hpp>
-
 #include "exposure_fit.h"
+#include "exposure_views.h"
 #include "label_support.h"
 #include "light_field_depth/core/error.h"
 #include "plane_sweep.h"
@@ -27,55 +26,6 @@ constexpr int LEAST_SIDE_PX = 32;
 constexpr float LABEL_DISPLACEMENT = 0.5F;
 /// More pairs of a view cost time only.
 constexpr std::size_t MOST_PAIRS = 1000;
-/// Means of several pixels outside may have had values that were cut off.
-constexpr double DARKEST_LEVEL = 5.0;
-constexpr double BRIGHTEST_LEVEL = 240.0;
-
-/// Makes mean and contrast of the surroundings alike everywhere.
-cv::Mat normalizeLocally(const cv::Mat& grey)
-{
-  constexpr int WINDOW_SIDE = 9;
-  constexpr double LEAST_DEVIATION = 4.0;
-  constexpr double DEVIATION = 40.0;
-  constexpr double MIDDLE = 128.0;
-  cv::Mat values;
-  cv::Mat mean;
-  cv::Mat deviation;
-  grey.convertTo(values, CV_32F);
-  const cv::Size window(WINDOW_SIDE, WINDOW_SIDE);
-  cv::boxFilter(values, mean, CV_32F, window);
-  values -= mean;
-  cv::boxFilter(values.mul(values), deviation, CV_32F, window);
-  cv::sqrt(deviation, deviation);
-  deviation += LEAST_DEVIATION;
-  cv::Mat result;
-  cv::divide(values, deviation, values, DEVIATION);
-  values.convertTo(result, CV_8U, 1.0, MIDDLE);
-  return result;
-}
-
-/// Brightness is compared over windows of this side, so that small displacements do not matter.
-constexpr int WINDOW_SIDE = 5;
-
-cv::Mat lowPass(const cv::Mat& image)
-{
-  cv::Mat result;
-  cv::GaussianBlur(image, result, cv::Size(WINDOW_SIDE, WINDOW_SIDE), 0.0);
-  return result;
-}
-
-/// Not 0 where nothing near the pixel was cut off at black or white.
-cv::Mat exposedPixels(const cv::Mat& image)
-{
-  const cv::Mat window = cv::Mat::ones(3, 3, CV_8U);
-  cv::Mat darkest;
-  cv::Mat brightest;
-  cv::erode(image, darkest, window);
-  cv::dilate(image, brightest, window);
-  cv::inRange(darkest, cv::Scalar::all(DARKEST_LEVEL), cv::Scalar::all(BRIGHTEST_LEVEL), darkest);
-  cv::inRange(brightest, cv::Scalar::all(DARKEST_LEVEL), cv::Scalar::all(BRIGHTEST_LEVEL), brightest);
-  return darkest & brightest;
-}
 
 /// A pixel of the reduced reference and its disparity.
 struct Match
@@ -91,7 +41,7 @@ public:
       : light_field_(light_field), pool_(pool), max_displacement_px_(max_displacement_px),
         arms_(armsOf(light_field)), halvings_(halvingsFor(light_field.size(), SMALL_SIDE_PX)),
         scale_(static_cast<float>(std::ldexp(1.0, -halvings_))), small_(light_field.views.size()),
-        exposed_(light_field.views.size()), normalized_(light_field.views.size())
+        cut_off_(light_field.views.size()), normalized_(light_field.views.size())
   {
     forEachView([&](std::size_t i) { small_[i] = halve(light_field_.views[i].image, halvings_); });
     forEachView(
@@ -101,7 +51,7 @@ public:
           {
             normalized_[i] = normalizeLocally(toGrey(small_[i]));
           }
-          exposed_[i] = exposedPixels(small_[i]);
+          cut_off_[i] = cutOffValues(small_[i]);
           small_[i] = lowPass(small_[i]);
         });
   }
@@ -225,14 +175,22 @@ private:
       const cv::Point2f seen = cv::Point2f(matches[i].pixel) +
                                scale_ * cv::Point2f(view.offset_px - matches[i].disparity * view.steps);
       const cv::Point nearest(cvRound(seen.x), cvRound(seen.y));
-      if (inside.contains(nearest) && exposed_[index].at<std::uint8_t>(nearest) != 0 &&
-          exposed_[light_field_.reference_index].at<std::uint8_t>(matches[i].pixel) != 0)
+      if (inside.contains(nearest) && isExposed(index, nearest) &&
+          isExposed(light_field_.reference_index, matches[i].pixel))
       {
         const cv::Point2f place = (seen - middle) / half_diagonal;
         pairs.push_back({valueAt(reference, matches[i].pixel), valueAt(other, nearest), place});
       }
     }
     return pairs;
+  }
+
+  /// Whether nothing near the pixel was cut off at black or white.
+  bool isExposed(std::size_t index, const cv::Point& pixel) const
+  {
+    const cv::Mat& cut_off = cut_off_[index];
+    return cut_off.channels() == 3 ? cut_off.at<cv::Vec3b>(pixel) == cv::Vec3b()
+                                   : cut_off.at<std::uint8_t>(pixel) == 0;
   }
 
   static cv::Vec3f valueAt(const cv::Mat& image, const cv::Point& pixel)
@@ -248,7 +206,7 @@ private:
   int halvings_;
   float scale_;                      ///< of the reduced views
   std::vector<cv::Mat> small_;       ///< all views, reduced and smoothed, in colour
-  std::vector<cv::Mat> exposed_;     ///< pixels of all views that are neither black nor white
+  std::vector<cv::Mat> cut_off_;     ///< values of all views near black or white
   std::vector<cv::Mat> normalized_;  ///< of the views that take part in the sweeps
 };
 
