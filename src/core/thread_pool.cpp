@@ -1,6 +1,10 @@
 #include "light_field_depth/core/thread_pool.h"
 
 #include <algorithm>
+#include <string>
+#include <system_error>
+
+#include "light_field_depth/core/error.h"
 
 namespace light_field_depth
 {
@@ -11,13 +15,28 @@ ThreadPool::ThreadPool(int threads)
     threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
   workers_.reserve(static_cast<std::size_t>(threads - 1));
-  for (int i = 1; i < threads; ++i)
+  try
   {
-    workers_.emplace_back([this] { workerLoop(); });
+    for (int i = 1; i < threads; ++i)
+    {
+      workers_.emplace_back([this] { workerLoop(); });
+    }
+  }
+  catch (const std::system_error& error)
+  {
+    const std::size_t started = workers_.size();
+    stop();
+    throw InputError("Only " + std::to_string(started) + " of " + std::to_string(threads - 1) +
+                     " threads could be started (" + error.code().message() + "); ask for fewer threads.");
   }
 }
 
 ThreadPool::~ThreadPool()
+{
+  stop();
+}
+
+void ThreadPool::stop()
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -1,6 +1,8 @@
 #include <atomic>
 #include <set>
 
+#include <sys/resource.h>
+
 #include <gtest/gtest.h>
 
 #include "light_field_depth/core/thread_pool.h"
@@ -55,6 +57,34 @@ TEST(ThreadPool, HandsOnTheExceptionOfABodyAndStaysUsable)
   std::atomic<int> sum{0};
   pool.parallelFor(0, 100, 1, [&](int first, int) { sum += first; });
   EXPECT_EQ(sum, 4950);
+}
+
+/// Lets the process have no more than so much address space, for as long as it lives.
+class AddressSpaceLimit
+{
+public:
+  explicit AddressSpaceLimit(rlim_t bytes)
+  {
+    getrlimit(RLIMIT_AS, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &before_); }
+  AddressSpaceLimit(const AddressSpaceLimit&) = delete;
+  AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
+
+private:
+  rlimit before_{};
+};
+
+TEST(ThreadPool, RefusesMoreThreadsThanTheSystemGives)
+{
+  {
+    const AddressSpaceLimit room_for_few_stacks(rlim_t{1} << 30);
+    EXPECT_THROW(ThreadPool(4096), InputError);
+  }
+  EXPECT_EQ(ThreadPool(3).threads(), 3);
 }
 
 TEST(ThreadPool, StopsWhenCancelled)

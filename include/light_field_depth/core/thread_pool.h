@@ -23,6 +23,7 @@ class ThreadPool
 {
 public:
   /// @param threads number of threads that work, the caller included; 0 takes one per processor.
+  /// @throw InputError if the system does not give as many
   explicit ThreadPool(int threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -39,6 +40,7 @@ public:
   void parallelFor(int begin, int end, int grain, const std::function<void(int, int)>& body);
 
 private:
+  void stop();
   void workerLoop();
   void runChunks();
   void runChunk(int chunk);
