@@ -39,7 +39,7 @@ void add(const VoxelSum& more, VoxelSum& sum)
 
 ColoredPoint meanOf(const VoxelSum& sum)
 {
-  const auto level = [&sum](std::uint32_t total)
+  const auto level = [&sum](std::uint64_t total)
   { return static_cast<std::uint8_t>((total + sum.count / 2) / sum.count); };
   return {static_cast<float>(sum.x / sum.count),
           static_cast<float>(sum.y / sum.count),

@@ -21,7 +21,7 @@ struct VoxelKey
   bool operator==(const VoxelKey& other) const { return x == other.x && y == other.y && z == other.z; }
 };
 
-/// The points of one voxel so far.
+/// The points of one voxel so far: as many as fit into a cloud, so their levels need more than 32 bits.
 struct VoxelSum
 {
   VoxelKey key;
@@ -29,9 +29,9 @@ struct VoxelSum
   double x;
   double y;
   double z;
-  std::uint32_t b;
-  std::uint32_t g;
-  std::uint32_t r;
+  std::uint64_t b;
+  std::uint64_t g;
+  std::uint64_t r;
 };
 
 /// Sums by key, in the order in which the keys came.

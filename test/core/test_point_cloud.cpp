@@ -58,6 +58,25 @@ TEST(PointCloud, UnprojectsTheReferenceViewWithItsPrincipalPoint)
   EXPECT_EQ(cv::Vec3b(point.b, point.g, point.r), color);
 }
 
+TEST(PointCloud, KeepsTheColourOfAVoxelThatHoldsManyPoints)
+{
+  testing::SyntheticLightField scene = planeScene(0.0);
+  scene.light_field.views[0].image = cv::Mat(512, 512, CV_8UC3, cv::Scalar(255, 254, 1));
+  const cv::Mat disparity(512, 512, CV_32FC1, cv::Scalar(1.0));
+  constexpr int maps_of_one_view = 80;  // 21 million points, whose levels add up to more than 32 bits
+  const std::vector<ViewDisparity> maps(maps_of_one_view, {0, disparity, cv::Mat()});
+  DenseCloudOptions options;
+  options.voxel_size_m = 1e6F;
+  options.min_confidence = 0.0F;
+  ThreadPool pool(2);
+  const std::vector<ColoredPoint> cloud = denseCloud(scene.light_field, maps, options, pool);
+  ASSERT_FALSE(cloud.empty());
+  for (const ColoredPoint& point : cloud)
+  {
+    EXPECT_EQ(cv::Vec3b(point.b, point.g, point.r), cv::Vec3b(255, 254, 1));
+  }
+}
+
 TEST(PointCloud, HasNanWhereTheConfidenceIsTooLow)
 {
   const auto scene = planeScene(0.0);
