@@ -9,6 +9,7 @@
 
 #include "light_field_depth/core/multiview/cost_kernels.h"
 #include "light_field_depth/core/multiview/cubic_taps.h"
+#include "light_field_depth/core/multiview/label_space.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
 #include "light_field_depth/core/multiview/view_set.h"
@@ -52,6 +53,19 @@ template <typename Values>
 Values firstPart(const Values& values, std::size_t count)
 {
   return Values(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+TEST(LabelSpace, CoversAnyRangeWithFewLabels)
+{
+  constexpr int most = 240;
+  for (const float reach : {0.01F, 3.0F, 1e3F, 1e9F, 1e30F})
+  {
+    const LabelSpace labels = makeLabelSpace({-reach, 0.5F * reach}, 0.125F, most);
+    EXPECT_GE(labels.count, 2) << reach;
+    EXPECT_LE(labels.count, most) << reach;
+    EXPECT_LE(labels.disparity(0.0F), -reach);
+    EXPECT_GE(labels.disparity(static_cast<float>(labels.count - 1)), 0.5F * reach);
+  }
 }
 
 class MultiviewKernels : public testing::InstructionSetTest

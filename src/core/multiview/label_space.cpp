@@ -12,10 +12,11 @@ LabelSpace makeLabelSpace(const DisparityRange& range, float step_px, int max_la
   {
     const double first = std::floor(range.min / labels.step_px);
     const double last = std::ceil(range.max / labels.step_px);
-    labels.count = static_cast<int>(last - first) + 1;
-    labels.first_px = static_cast<float>(first * labels.step_px);
-    if (labels.count <= max_labels)
+    const double count = last - first + 1.0;
+    if (count <= max_labels)
     {
+      labels.count = static_cast<int>(count);
+      labels.first_px = static_cast<float>(first * labels.step_px);
       return labels;
     }
     labels.step_px *= 2.0F;
