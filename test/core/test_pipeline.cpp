@@ -85,5 +85,26 @@ TEST(Pipeline, NamesEveryOptionThatCannotBeUsed)
   EXPECT_THROW(methodFromString("magic"), InputError);
 }
 
+TEST(Pipeline, RefusesADisparityRangeInWhichNothingCanBeSeen)
+{
+  const LightField light_field = scene().light_field;
+  const auto side = static_cast<float>(std::max(light_field.size().width, light_field.size().height));
+  Pipeline pipeline(1);
+  PipelineOptions options;
+  for (const Method method : {Method::Multiview, Method::Paper2017})
+  {
+    options.method = method;
+    for (const DisparityRange& range :
+         {DisparityRange{-1e30F, 1e30F}, DisparityRange{0.0F, 1e10F}, DisparityRange{-1e9F, 0.0F},
+          DisparityRange{2.0F * side, 3.0F * side}})
+    {
+      options.disparity_range = range;
+      EXPECT_THROW(pipeline.run(light_field, options, {}), InputError) << range.min << ".." << range.max;
+    }
+    options.disparity_range = DisparityRange{-side, side};
+    EXPECT_EQ(pipeline.run(light_field, options, {}).estimate.disparity.size(), light_field.size());
+  }
+}
+
 }  // namespace
 }  // namespace light_field_depth

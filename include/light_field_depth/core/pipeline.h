@@ -38,7 +38,8 @@ struct PipelineOptions
 {
   Method method = Method::Multiview;
   ViewSelection views = ViewSelection::Auto;
-  /// In pixels per grid step; found from the images when absent.
+  /// In pixels per grid step; found from the images when absent. A range that moves everything out of every
+  /// view is refused.
   std::optional<DisparityRange> disparity_range;
   Paper2017Options paper2017;
   MultiviewOptions multiview;
