@@ -13,6 +13,15 @@
 
 namespace light_field_depth
 {
+/// Numbers of rows and columns go so far, either way.
+constexpr int LARGEST_NUMBER = 99999;
+
+inline bool canBeCounted(const GridPosition& number)
+{
+  const auto is_within = [](int value) { return value >= -LARGEST_NUMBER && value <= LARGEST_NUMBER; };
+  return is_within(number.row) && is_within(number.column);
+}
+
 /// A view before it is decoded.
 struct ViewFile
 {

@@ -314,9 +314,14 @@ FolderDescription describeByYaml(const fs::path& yaml_file)
   FolderDescription description;
   description.format = "yaml";
   readViews(fields, yaml_file, description);
-  if (const auto reference = fields.integerPair("reference", "[row, column] of a view"))
+  const std::string place = "[row, column] of a view";
+  if (const auto reference = fields.integerPair("reference", place))
   {
     description.reference = GridPosition{reference->first, reference->second};
+    if (!canBeCounted(*description.reference))
+    {
+      fields.fail("reference", place);
+    }
   }
   if (fields.has("row_order") || fields.has("column_order"))
   {

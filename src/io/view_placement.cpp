@@ -9,7 +9,6 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr int MAX_NUMBER = 99999;
 /// Positions whose mean step is smaller than this part of their spread do not follow the numbering.
 constexpr double MIN_STEP_OVER_SPREAD = 1e-6;
 /// Beyond this factor between them, the positions and the stated baseline are of different units.
@@ -39,10 +38,10 @@ void checkNumbers(const std::vector<ViewFile>& views)
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     const GridPosition& number = views[i].number;
-    if (std::abs(number.row) > MAX_NUMBER || std::abs(number.column) > MAX_NUMBER)
+    if (!canBeCounted(number))
     {
       throw InputError("The view '" + views[i].path.string() + "' has the place " + toString(number) +
-                       "; rows and columns are counted up to " + std::to_string(MAX_NUMBER) + ".");
+                       "; rows and columns are counted up to " + std::to_string(LARGEST_NUMBER) + ".");
     }
     if (i > 0 && number == views[i - 1].number)
     {

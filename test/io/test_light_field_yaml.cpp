@@ -207,6 +207,7 @@ TEST(LightFieldYaml, NamesTheFieldThatIsWrong)
         Wrong{"first_index: -1\n", "first_index"},
         Wrong{"first_index: 1.5\n", "first_index"},
         Wrong{"reference: middle\n", "reference"},
+        Wrong{"reference: [-2147483648, 0]\n", "reference"},
         Wrong{"views: []\n", "either"},
         Wrong{"truth: [a\n", "YAML"},
         Wrong{"? [a, b]\n: c\n", "[a, b]"}})
@@ -240,6 +241,7 @@ TEST(LightFieldYaml, SaysWhereTheViewsAreMissing)
         std::make_pair("views: [{row: 0, column: 0, file: absent.png}]\n", "absent.png"),
         std::make_pair("views: [{row: a, column: 0, file: view_00_00.png}]\n", "row"),
         std::make_pair("views: [{row: 2000000000, column: 0, file: view_00_00.png}]\n", "2000000000"),
+        std::make_pair("views: [{row: -2147483648, column: 0, file: view_00_00.png}]\n", "counted up to"),
         std::make_pair("views: [{row: 0, column: 0, file: view_00_00.png, colour: red}]\n", "colour"),
         std::make_pair("views: [{row: 0, column: 0, file: view_00_00.png, position_m: [0, 0]},"
                        " {row: 0, column: 1, file: view_00_01.png}]\n",
