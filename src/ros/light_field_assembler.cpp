@@ -52,6 +52,10 @@ LightField LightFieldAssembler::assemble(const std::vector<sensor_msgs::ImageCon
 void LightFieldAssembler::updateCalibration(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos,
                                             const cv::Size& image_size)
 {
+  if (use_camera_info_)
+  {
+    checkPresent(infos);
+  }
   if (calibration_ && (!use_camera_info_ || isCurrent(infos)))
   {
     return;
@@ -72,6 +76,18 @@ void LightFieldAssembler::updateCalibration(const std::vector<sensor_msgs::Camer
     calibration_ = calibrationFromParameters(gridOf(array_), array_.reference, parameters_, image_size);
   }
   warnings_ = calibration_->warnings;
+}
+
+void LightFieldAssembler::checkPresent(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const
+{
+  for (std::size_t i = 0; i < infos.size(); ++i)
+  {
+    if (infos[i] == nullptr)
+    {
+      throw InputError(describe(array_.views[i]) + ": no CameraInfo is known; publish it on '" +
+                       array_.views[i].camera_info + "'.");
+    }
+  }
 }
 
 bool LightFieldAssembler::isCurrent(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const

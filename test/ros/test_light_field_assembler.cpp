@@ -1,5 +1,7 @@
 #include "light_field_depth/ros/light_field_assembler.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 #include <boost/make_shared.hpp>
 
@@ -94,6 +96,19 @@ TEST(LightFieldAssembler, RecoversFromABadFrame)
   expectSentence([&] { assemble(assembler, input); }, {"View (1, 2)", "P[0]"});
   input.infos[5]->P[0] = focal_length;
   EXPECT_EQ(assemble(assembler, input).views.size(), 9U);
+}
+
+TEST(LightFieldAssembler, NamesTheViewWhoseCameraInfoHasBeenForgotten)
+{
+  Messages input = messages();
+  LightFieldAssembler assembler = assemblerFor(input);
+  const auto info = std::exchange(input.infos[3], nullptr);
+  const auto assemble_all = [&] { assemble(assembler, input); };
+  expectSentence(assemble_all, {"View (1, 0) (image3)", "no CameraInfo", "'info'"});
+  input.infos[3] = info;
+  assemble(assembler, input);
+  input.infos[3] = nullptr;  // between two sets, as a reset may do
+  expectSentence(assemble_all, {"View (1, 0) (image3)", "no CameraInfo", "'info'"});
 }
 
 TEST(LightFieldAssembler, NamesTheViewWhoseImageDoesNotFit)

@@ -25,7 +25,7 @@ public:
   /// The images are shared with the messages where their encoding allows: the light field is to be used while
   /// they live.
   /// @param images one for each view of the array
-  /// @param infos  one for each view; not looked at when use_camera_info is false
+  /// @param infos  one for each view, null where none is known; not looked at when use_camera_info is false
   /// @throw InputError
   LightField assemble(const std::vector<sensor_msgs::ImageConstPtr>& images,
                       const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
@@ -36,6 +36,7 @@ public:
 private:
   void updateCalibration(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos,
                          const cv::Size& image_size);
+  void checkPresent(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
   void checkSizes(const std::vector<sensor_msgs::ImageConstPtr>& images) const;
   bool isCurrent(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
 
