@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include <ros/names.h>
+
 #include "light_field_depth/core/error.h"
 
 namespace light_field_depth
@@ -205,6 +207,25 @@ ViewArray listedArrayFrom(const XmlRpcValue& list, const std::optional<GridPosit
   return array;
 }
 
+/// What roscpp would refuse when the topics are subscribed to, which may be much later.
+void refuseBadTopics(const ViewArray& array)
+{
+  for (const ViewTopics& view : array.views)
+  {
+    for (const std::string& topic : {view.image, view.camera_info})
+    {
+      std::string problem;
+      if (!ros::names::validate(topic, problem) || topic.front() == '~')
+      {
+        throw InputError(
+            "View " + toString(view.grid) + " has the topic '" + topic +
+            "', which is not a name that can be subscribed to; begin with a letter or '/', and go on "
+            "with letters, digits, '_' and '/'.");
+      }
+    }
+  }
+}
+
 /// One topic for two views would give both the same image.
 void refuseSharedTopics(const ViewArray& array)
 {
@@ -263,6 +284,7 @@ ViewArray viewArrayFromParameter(const XmlRpc::XmlRpcValue& parameter)
   ViewArray array = fields.has("views") ? listedArrayFrom(fields.array("views"), reference)
                                         : patternArrayFrom(fields, reference);
   fields.refuseUnknown();
+  refuseBadTopics(array);
   refuseSharedTopics(array);
   return array;
 }

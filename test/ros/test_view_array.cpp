@@ -95,6 +95,8 @@ TEST(ViewArray, NamesFieldAndRemedyOfWhatCannotBeUsed)
       {"{views: [{row: 0, column: 0, image: a, camera_info: b}, {row: 0, column: 0, image: c, camera_info: "
        "d}]}",
        {"(0, 0)", "occurs twice"}},
+      {"{rows: 3, columns: 3, image_topic: 'view {row} {column}'}", {"View (0, 0)", "'view 0 0'", "topic"}},
+      {"{rows: 3, columns: 3, camera_info_topic: '~{row}{column}'}", {"View (0, 0)", "'~00'", "topic"}},
       {"{views: left}", {"'array/views'", "list"}},
   };
   for (const auto& [yaml, parts] : cases)
