@@ -81,7 +81,6 @@ DepthNode::DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& 
     const std::lock_guard<std::mutex> lock(subscription_mutex_);
     results_ = std::make_unique<ResultPublisher>(private_node_handle, [this] { updateSubscriptions(); });
   }
-  worker_ = std::thread([this] { workerLoop(); });
   updateSubscriptions();
   ros::NodeHandle services = private_node_handle;
   reset_service_ = services.advertiseService("reset", &DepthNode::reset, this);
@@ -90,6 +89,8 @@ DepthNode::DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& 
                                 << parameters_.array.views.front().image << " to "
                                 << parameters_.array.views.back().image << ", on " << pipeline_.threads()
                                 << " thread(s).");
+  // Last, since a constructor that throws leaves nobody to join it.
+  worker_ = std::thread([this] { workerLoop(); });
 }
 
 DepthNode::~DepthNode()

@@ -1,7 +1,11 @@
 #include "light_field_depth/ros/node_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <vector>
+
+#include <image_transport/image_transport.h>
 
 #include "light_field_depth/core/error.h"
 
@@ -85,6 +89,24 @@ CalibrationParameters readCalibration(const ros::NodeHandle& node_handle)
   return calibration;
 }
 
+/// An unknown transport would throw at the first subscription, from a callback.
+void checkTransport(const ros::NodeHandle& node_handle, const std::string& transport)
+{
+  const std::vector<std::string> known = image_transport::ImageTransport(node_handle).getLoadableTransports();
+  const std::string prefix = "image_transport/";
+  if (std::find(known.begin(), known.end(), prefix + transport) != known.end())
+  {
+    return;
+  }
+  std::string names;
+  for (const std::string& name : known)
+  {
+    names += (names.empty() ? "" : ", ") + name.substr(std::min(prefix.size(), name.size()));
+  }
+  throw InputError("The parameter '" + node_handle.resolveName("image_transport") + "' is '" + transport +
+                   "'; install that transport, or choose one of: " + names + ".");
+}
+
 }  // namespace
 
 NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
@@ -110,7 +132,10 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   read(private_node_handle, "lazy", parameters.lazy);
   readInRange(private_node_handle, "threads", 0, MAX_THREADS, parameters.threads);
   read(private_node_handle, "frame_id", parameters.frame_id);
-  read(private_node_handle, "image_transport", parameters.image_transport);
+  if (read(private_node_handle, "image_transport", parameters.image_transport))
+  {
+    checkTransport(private_node_handle, parameters.image_transport);
+  }
   readInRange(private_node_handle, "patience", 0.1, 1e6, parameters.patience_s);
   return parameters;
 }

@@ -305,6 +305,11 @@ TEST_F(DepthNodeTest, RefusesParametersBeforeItAdvertisesAnything)
   setParameter("queue_size", 0);
   EXPECT_THROW(startNode(scene.light_field), InputError);
   setParameter("queue_size", 5);
+  setParameter("image_transport", std::string("no_such_transport"));
+  EXPECT_THROW(startNode(scene.light_field), InputError);
+  setParameter("lazy", false);
+  EXPECT_THROW(startNode(scene.light_field), InputError);
+  setParameter("image_transport", std::string("raw"));
   setParameter("use_camera_info", false);
   EXPECT_THROW(startNode(scene.light_field), InputError) << "no focal length";
   const ros::V_string advertised = []
