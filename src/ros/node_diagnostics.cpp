@@ -12,9 +12,6 @@ namespace
 {
 using diagnostic_msgs::DiagnosticStatus;
 
-/// The same sentence is not logged again sooner.
-constexpr std::chrono::seconds REPEAT_AFTER(10);
-
 }  // namespace
 
 NodeDiagnostics::NodeDiagnostics(const ros::NodeHandle& node_handle,
@@ -81,18 +78,6 @@ void NodeDiagnostics::update(const ViewSynchronizerStatistics& input, std::uint6
   frames_dropped_ = frames_dropped;
   listening_ = listening;
   updater_.update();
-}
-
-bool NodeDiagnostics::isNews(const std::string& sentence)
-{
-  const auto now = std::chrono::steady_clock::now();
-  if (sentence == last_logged_ && now - last_logged_at_ < REPEAT_AFTER)
-  {
-    return false;
-  }
-  last_logged_ = sentence;
-  last_logged_at_ = now;
-  return true;
 }
 
 void NodeDiagnostics::reportInput(diagnostic_updater::DiagnosticStatusWrapper& status)

@@ -11,6 +11,7 @@
 
 #include "light_field_depth/core/view_synchronizer.h"
 #include "light_field_depth/ros/recent_frames.h"
+#include "light_field_depth/ros/recent_sentences.h"
 
 namespace light_field_depth
 {
@@ -38,7 +39,10 @@ public:
 private:
   void reportInput(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
-  bool isNews(const std::string& sentence);
+  bool isNews(const std::string& sentence)
+  {
+    return logged_.isNews(sentence, std::chrono::steady_clock::now());
+  }
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::uint64_t frames_published_ = 0;
@@ -46,8 +50,7 @@ private:
   RecentFrames recent_;
   std::string last_failure_;  ///< empty after a frame that went well
   std::string last_warning_;  ///< likewise
-  std::string last_logged_;
-  std::chrono::steady_clock::time_point last_logged_at_;
+  RecentSentences logged_;
 
   // Used by update() alone.
   ViewSynchronizerStatistics input_;
