@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "cover-inl.h"
 #include "exposure_kernels.h"
 
 #ifndef LIGHT_FIELD_DEPTH_CORE_EXPOSURE_KERNELS_BORDER
@@ -36,33 +37,6 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Runs body(tag, i) for vectors that cover [0, count). The last one may cover again what was covered.
-template <class Element, std::size_t MOST_LANES, class Body>
-HWY_INLINE void cover(int count, const Body& body)
-{
-  const hn::CappedTag<Element, MOST_LANES> whole;
-  const int lanes = static_cast<int>(hn::Lanes(whole));
-  for (int i = 0; i + lanes <= count; i += lanes)
-  {
-    body(whole, i);
-  }
-  if (count >= lanes)
-  {
-    body(whole, count - lanes);
-    return;
-  }
-  for (int i = 0; i < count; ++i)
-  {
-    body(hn::CappedTag<Element, 1>(), i);
-  }
-}
-
-template <class Element, class Body>
-HWY_INLINE void coverWith(int count, const Body& body)
-{
-  cover<Element, 64 / sizeof(Element)>(count, body);
-}
-
 template <class Words>
 HWY_INLINE hn::Vec<Words> loadBytes(Words words, const std::uint8_t* from)
 {
@@ -91,7 +65,7 @@ void smoothRowSimd(const RowsAbout<std::uint8_t, 5>& rows, int width, int channe
 {
   std::uint16_t* const columns = memory + ROW_BORDER_PX * channels;
   const int count = width * channels;
-  coverWith<std::uint16_t>(
+  cover<std::uint16_t>(
       count,
       [&](auto words, int x) HWY_ATTR
       {
@@ -99,7 +73,7 @@ void smoothRowSimd(const RowsAbout<std::uint8_t, 5>& rows, int width, int channe
         hn::StoreU(weigh(words, hn::Add(at(0), at(4)), hn::Add(at(1), at(3)), at(2)), words, columns + x);
       });
   mirrorEnds(columns, width, channels, 2);
-  coverWith<std::uint16_t>(
+  cover<std::uint16_t>(
       count,
       [&](auto words, int x) HWY_ATTR
       {
@@ -116,26 +90,26 @@ void cutOffRowSimd(const RowsAbout<std::uint8_t, 3>& rows, int width, int channe
   auto* const columns = reinterpret_cast<std::uint8_t*>(memory) + ROW_BORDER_PX * channels;
   const int count = width * channels;
   // Not 0 where a value of the column is out of bounds.
-  coverWith<std::uint8_t>(count,
-                          [&](auto bytes, int x) HWY_ATTR
-                          {
-                            const auto a = hn::LoadU(bytes, rows[0] + x);
-                            const auto b = hn::LoadU(bytes, rows[1] + x);
-                            const auto c = hn::LoadU(bytes, rows[2] + x);
-                            const auto least = hn::Min(hn::Min(a, b), c);
-                            const auto most = hn::Max(hn::Max(a, b), c);
-                            const auto below = hn::SaturatedSub(hn::Set(bytes, darkest), least);
-                            const auto above = hn::SaturatedSub(most, hn::Set(bytes, brightest));
-                            hn::StoreU(hn::Or(below, above), bytes, columns + x);
-                          });
+  cover<std::uint8_t>(count,
+                      [&](auto bytes, int x) HWY_ATTR
+                      {
+                        const auto a = hn::LoadU(bytes, rows[0] + x);
+                        const auto b = hn::LoadU(bytes, rows[1] + x);
+                        const auto c = hn::LoadU(bytes, rows[2] + x);
+                        const auto least = hn::Min(hn::Min(a, b), c);
+                        const auto most = hn::Max(hn::Max(a, b), c);
+                        const auto below = hn::SaturatedSub(hn::Set(bytes, darkest), least);
+                        const auto above = hn::SaturatedSub(most, hn::Set(bytes, brightest));
+                        hn::StoreU(hn::Or(below, above), bytes, columns + x);
+                      });
   mirrorEnds(columns, width, channels, 1);
-  coverWith<std::uint8_t>(count,
-                          [&](auto bytes, int x) HWY_ATTR
-                          {
-                            const auto sides = hn::Or(hn::LoadU(bytes, columns + x - channels),
-                                                      hn::LoadU(bytes, columns + x + channels));
-                            hn::StoreU(hn::Or(hn::LoadU(bytes, columns + x), sides), bytes, cut_off + x);
-                          });
+  cover<std::uint8_t>(count,
+                      [&](auto bytes, int x) HWY_ATTR
+                      {
+                        const auto sides = hn::Or(hn::LoadU(bytes, columns + x - channels),
+                                                  hn::LoadU(bytes, columns + x + channels));
+                        hn::StoreU(hn::Or(hn::LoadU(bytes, columns + x), sides), bytes, cut_off + x);
+                      });
 }
 
 /// The sum over nine neighbours.
@@ -156,58 +130,58 @@ void deviationRowSimd(const RowsAbout<std::uint8_t, 9>& rows, int width, std::ui
                       float* deviation)
 {
   std::uint16_t* const columns = memory + ROW_BORDER_PX;
-  coverWith<std::uint16_t>(width,
-                           [&](auto words, int x) HWY_ATTR
-                           {
-                             auto sum = loadBytes(words, rows[0] + x);
-                             for (std::size_t row = 1; row < rows.size(); ++row)
-                             {
-                               sum = hn::Add(sum, loadBytes(words, rows[row] + x));
-                             }
-                             hn::StoreU(sum, words, columns + x);
-                           });
+  cover<std::uint16_t>(width,
+                       [&](auto words, int x) HWY_ATTR
+                       {
+                         auto sum = loadBytes(words, rows[0] + x);
+                         for (std::size_t row = 1; row < rows.size(); ++row)
+                         {
+                           sum = hn::Add(sum, loadBytes(words, rows[row] + x));
+                         }
+                         hn::StoreU(sum, words, columns + x);
+                       });
   mirrorEnds(columns, width, 1, ROW_BORDER_PX);
-  coverWith<float>(width,
-                   [&](auto floats, int x) HWY_ATTR
-                   {
-                     const hn::Rebind<std::int32_t, decltype(floats)> integers;
-                     const hn::Rebind<std::uint16_t, decltype(floats)> words;
-                     const auto sum =
-                         hn::ConvertTo(floats, hn::PromoteTo(integers, sumAlongRow(words, columns + x)));
-                     const auto value = hn::ConvertTo(floats, loadBytes(integers, rows[rows.size() / 2] + x));
-                     const auto mean = hn::Mul(sum, hn::Set(floats, SHARE_OF_WINDOW));
-                     hn::StoreU(hn::Sub(value, mean), floats, deviation + x);
-                   });
+  cover<float>(width,
+               [&](auto floats, int x) HWY_ATTR
+               {
+                 const hn::Rebind<std::int32_t, decltype(floats)> integers;
+                 const hn::Rebind<std::uint16_t, decltype(floats)> words;
+                 const auto sum =
+                     hn::ConvertTo(floats, hn::PromoteTo(integers, sumAlongRow(words, columns + x)));
+                 const auto value = hn::ConvertTo(floats, loadBytes(integers, rows[rows.size() / 2] + x));
+                 const auto mean = hn::Mul(sum, hn::Set(floats, SHARE_OF_WINDOW));
+                 hn::StoreU(hn::Sub(value, mean), floats, deviation + x);
+               });
 }
 
 void normalizeRowSimd(const RowsAbout<float, 9>& deviations, int width, const Normalization& normalization,
                       float* memory, std::uint8_t* normalized)
 {
   float* const columns = memory + ROW_BORDER_PX;
-  coverWith<float>(width,
-                   [&](auto floats, int x) HWY_ATTR
-                   {
-                     auto sum = hn::Zero(floats);
-                     for (const float* row : deviations)
-                     {
-                       const auto value = hn::LoadU(floats, row + x);
-                       sum = hn::Add(sum, hn::Mul(value, value));
-                     }
-                     hn::StoreU(sum, floats, columns + x);
-                   });
+  cover<float>(width,
+               [&](auto floats, int x) HWY_ATTR
+               {
+                 auto sum = hn::Zero(floats);
+                 for (const float* row : deviations)
+                 {
+                   const auto value = hn::LoadU(floats, row + x);
+                   sum = hn::Add(sum, hn::Mul(value, value));
+                 }
+                 hn::StoreU(sum, floats, columns + x);
+               });
   mirrorEnds(columns, width, 1, ROW_BORDER_PX);
-  coverWith<float>(
-      width,
-      [&](auto floats, int x) HWY_ATTR
-      {
-        const hn::Rebind<std::uint8_t, decltype(floats)> bytes;
-        const auto square = hn::Mul(sumAlongRow(floats, columns + x), hn::Set(floats, SHARE_OF_WINDOW));
-        const auto contrast = hn::Add(hn::Sqrt(square), hn::Set(floats, normalization.least));
-        const auto value = hn::LoadU(floats, deviations[deviations.size() / 2] + x);
-        const auto scaled = hn::Div(hn::Mul(value, hn::Set(floats, normalization.scale)), contrast);
-        const auto shifted = hn::Add(scaled, hn::Set(floats, normalization.middle));
-        hn::StoreU(hn::DemoteTo(bytes, hn::NearestInt(shifted)), bytes, normalized + x);
-      });
+  cover<float>(width,
+               [&](auto floats, int x) HWY_ATTR
+               {
+                 const hn::Rebind<std::uint8_t, decltype(floats)> bytes;
+                 const auto square =
+                     hn::Mul(sumAlongRow(floats, columns + x), hn::Set(floats, SHARE_OF_WINDOW));
+                 const auto contrast = hn::Add(hn::Sqrt(square), hn::Set(floats, normalization.least));
+                 const auto value = hn::LoadU(floats, deviations[deviations.size() / 2] + x);
+                 const auto scaled = hn::Div(hn::Mul(value, hn::Set(floats, normalization.scale)), contrast);
+                 const auto shifted = hn::Add(scaled, hn::Set(floats, normalization.middle));
+                 hn::StoreU(hn::DemoteTo(bytes, hn::NearestInt(shifted)), bytes, normalized + x);
+               });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "light_field_depth/core/error.h"
+#include "noise_kernels.h"
 
 namespace light_field_depth
 {
@@ -24,36 +24,13 @@ struct Block
   double level;     ///< mean brightness
 };
 
-/// Sums over rows of the image, one for each byte of a row.
+/// Sums over rows of the image, one for each byte of a row but those of the first and the last pixel.
 struct RowSums
 {
-  explicit RowSums(std::size_t bytes) : response(bytes), level(bytes), curvature(bytes) {}
-
-  void clear()
-  {
-    std::fill(response.begin(), response.end(), 0);
-    std::fill(level.begin(), level.end(), 0);
-  }
-
-  /// Adds the response of the mask [1 -2 1]^T [1 -2 1] along the middle one of three rows.
-  void add(const std::uint8_t* above, const std::uint8_t* middle, const std::uint8_t* below, int channels)
-  {
-    const auto bytes = static_cast<int>(response.size());
-    for (int i = 0; i < bytes; ++i)
-    {
-      curvature[i] = static_cast<std::int16_t>(above[i] - 2 * middle[i] + below[i]);
-      level[i] = static_cast<std::uint16_t>(level[i] + middle[i]);
-    }
-    for (int i = channels; i < bytes - channels; ++i)
-    {
-      const int value = curvature[i - channels] - 2 * curvature[i] + curvature[i + channels];
-      response[i] = static_cast<std::uint16_t>(response[i] + std::abs(value));
-    }
-  }
+  explicit RowSums(std::size_t bytes) : response(bytes), level(bytes) {}
 
   std::vector<std::uint16_t> response;
   std::vector<std::uint16_t> level;
-  std::vector<std::int16_t> curvature;
 };
 
 void appendBlocks(const RowSums& sums, int width, int channels, int rows,
@@ -64,8 +41,8 @@ void appendBlocks(const RowSums& sums, int width, int channels, int rows,
     const int right = std::min(left + BLOCK_PX, width - 1);
     for (int channel = 0; channel < channels; ++channel)
     {
-      double response = 0.0;
-      double level = 0.0;
+      int response = 0;
+      int level = 0;
       for (int x = left; x < right; ++x)
       {
         const auto i = static_cast<std::size_t>(x) * static_cast<std::size_t>(channels) +
@@ -88,12 +65,7 @@ std::vector<std::vector<Block>> measureBlocks(const cv::Mat& image)
   for (int top = 1; top + BLOCK_PX <= image.rows - 1 || top == 1; top += BLOCK_PX)
   {
     const int bottom = std::min(top + BLOCK_PX, image.rows - 1);
-    sums.clear();
-    for (int y = top; y < bottom; ++y)
-    {
-      sums.add(image.ptr<std::uint8_t>(y - 1), image.ptr<std::uint8_t>(y), image.ptr<std::uint8_t>(y + 1),
-               channels);
-    }
+    sumMaskResponses(image, top, bottom, sums.response.data(), sums.level.data());
     appendBlocks(sums, image.cols, channels, bottom - top, blocks);
   }
   return blocks;

@@ -8,6 +8,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "support/instruction_sets.h"
+
 namespace light_field_depth
 {
 namespace
@@ -25,7 +27,11 @@ cv::Mat unevenImage(const cv::Size& size, int type)
 /// Smaller than vectors, and larger but not a multiple of one.
 const std::vector<cv::Size> SIZES = {{16, 17}, {131, 40}};
 
-TEST(ExposureViews, AreSmoothedAsByAGaussianKernel)
+class ExposureViews : public testing::InstructionSetTest
+{
+};
+
+TEST_P(ExposureViews, AreSmoothedAsByAGaussianKernel)
 {
   for (const cv::Size& size : SIZES)
   {
@@ -39,7 +45,7 @@ TEST(ExposureViews, AreSmoothedAsByAGaussianKernel)
   }
 }
 
-TEST(ExposureViews, TellWhereValuesAreCutOff)
+TEST_P(ExposureViews, TellWhereValuesAreCutOff)
 {
   for (const cv::Size& size : SIZES)
   {
@@ -59,7 +65,7 @@ TEST(ExposureViews, TellWhereValuesAreCutOff)
   }
 }
 
-TEST(ExposureViews, AreMadeAlikeInMeanAndContrast)
+TEST_P(ExposureViews, AreMadeAlikeInMeanAndContrast)
 {
   constexpr int WINDOW_SIDE = 9;
   for (const cv::Size& size : SIZES)
@@ -84,6 +90,9 @@ TEST(ExposureViews, AreMadeAlikeInMeanAndContrast)
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, ExposureViews, testing::everyInstructionSet(),
+                         testing::instructionSetName);
 
 }  // namespace
 }  // namespace light_field_depth

@@ -12,6 +12,7 @@
 #include "light_field_depth/core/multiview/upsampling.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview_estimator.h"
+#include "support/instruction_sets.h"
 #include "support/synthetic_scene.h"
 
 namespace light_field_depth::multiview
@@ -30,7 +31,11 @@ std::vector<std::uint8_t> randomBytes(std::size_t count)
   return bytes;
 }
 
-TEST(HalfResolution, RowsEqualThePlainVersion)
+class HalfResolutionRows : public testing::InstructionSetTest
+{
+};
+
+TEST_P(HalfResolutionRows, EqualThePlainVersion)
 {
   for (const int channels : {1, 3})
   {
@@ -47,7 +52,7 @@ TEST(HalfResolution, RowsEqualThePlainVersion)
   }
 }
 
-TEST(HalfResolution, RowsOfAllChannelsEqualThePlainVersion)
+TEST_P(HalfResolutionRows, OfAllChannelsEqualThePlainVersion)
 {
   for (const int channels : {1, 3})
   {
@@ -63,6 +68,9 @@ TEST(HalfResolution, RowsOfAllChannelsEqualThePlainVersion)
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, HalfResolutionRows, testing::everyInstructionSet(),
+                         testing::instructionSetName);
 
 TEST(HalfResolution, KeepsColoursAndLeavesOddEndsOut)
 {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "support/instruction_sets.h"
 #include "sweep_kernels.h"
 
 namespace light_field_depth
@@ -89,7 +90,11 @@ int costAt(const PlaneSweep& sweep, int label, int x, int y)
   return arms == 1 ? total : (total - worst) / (arms - 1);
 }
 
-TEST(PlaneSweep, CostsAreAsDefined)
+class PlaneSweeps : public testing::InstructionSetTest
+{
+};
+
+TEST_P(PlaneSweeps, HaveCostsAsDefined)
 {
   const cv::Size size(75, 20);  // wider than whole vectors
   cv::RNG random(3);
@@ -121,7 +126,7 @@ TEST(PlaneSweep, CostsAreAsDefined)
   }
 }
 
-TEST(SweepKernels, KeepTheBestAndItsRival)
+TEST_P(PlaneSweeps, KeepTheBestAndItsRival)
 {
   constexpr int LABELS = 20;
   constexpr int DISTANCE = 3;
@@ -159,7 +164,7 @@ TEST(SweepKernels, KeepTheBestAndItsRival)
   }
 }
 
-TEST(SweepKernels, ExposeEveryByteValue)
+TEST_P(PlaneSweeps, ExposeEveryByteValue)
 {
   constexpr std::size_t COUNT = 256 + 5;
   std::vector<std::uint8_t> values(COUNT);
@@ -186,6 +191,9 @@ TEST(SweepKernels, ExposeEveryByteValue)
     EXPECT_NEAR(exposed[i], std::clamp(expected, 0.0F, 255.0F), 0.5F + 1e-3F) << "value " << int{values[i]};
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, PlaneSweeps, testing::everyInstructionSet(),
+                         testing::instructionSetName);
 
 }  // namespace
 }  // namespace light_field_depth
