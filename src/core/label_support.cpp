@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "sweep_kernels.h"
@@ -96,25 +98,43 @@ bool isCertain(const Winners& winners, std::size_t i, const Contrast& contrast)
   return winners.rival[i] != NO_COST && contrast.isClear(winners.cost[i], winners.rival[i]);
 }
 
+using Histogram = std::vector<int>;
+
+/// How many pixels are certain of each label.
+Histogram countCertain(const Winners& winners, const Contrast& contrast, int labels, ThreadPool& pool)
+{
+  const std::size_t chunks = (winners.label.size() + PIXELS_PER_CHUNK - 1) / PIXELS_PER_CHUNK;
+  std::vector<Histogram> histograms(chunks, Histogram(static_cast<std::size_t>(labels), 0));
+  pool.parallelFor(0, static_cast<int>(winners.label.size()), PIXELS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     Histogram& histogram = histograms[static_cast<std::size_t>(first / PIXELS_PER_CHUNK)];
+                     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+                     {
+                       histogram[winners.label[i]] += isCertain(winners, i, contrast) ? 1 : 0;
+                     }
+                   });
+  Histogram total(static_cast<std::size_t>(labels), 0);
+  for (const Histogram& histogram : histograms)
+  {
+    std::transform(total.begin(), total.end(), histogram.begin(), total.begin(), std::plus<>());
+  }
+  return total;
+}
+
 /// The labels between two quantiles of the pixels that are certain of their label.
-std::optional<LabelRange> coreOf(const Winners& winners, const Contrast& contrast, int labels)
+/// @param histogram from countCertain()
+std::optional<LabelRange> coreOf(const Histogram& histogram)
 {
   constexpr double LEFT_OUT = 0.02;
   constexpr int LEAST_PIXELS = 16;
-  std::vector<int> histogram(static_cast<std::size_t>(labels), 0);
-  int total = 0;
-  for (std::size_t i = 0; i < winners.label.size(); ++i)
-  {
-    const int certain = isCertain(winners, i, contrast) ? 1 : 0;
-    histogram[winners.label[i]] += certain;
-    total += certain;
-  }
+  const int total = std::accumulate(histogram.begin(), histogram.end(), 0);
   if (total < LEAST_PIXELS)
   {
     return std::nullopt;
   }
   const int left_out = static_cast<int>(LEFT_OUT * total);
-  LabelRange core = {0, labels - 1};
+  LabelRange core = {0, static_cast<int>(histogram.size()) - 1};
   for (int sum = histogram[0]; sum <= left_out; sum += histogram[static_cast<std::size_t>(core.first)])
   {
     ++core.first;
@@ -232,22 +252,37 @@ std::optional<LabelRange> labelsOf(const PatchEvidence& evidence)
   return LabelRange{evidence.labels[left_out], evidence.labels[evidence.labels.size() - 1 - left_out]};
 }
 
-/// Widens the core by the labels of connected patches of pixels that are certain or that no label inside the
-/// core explains.
-LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners& winners,
-                 const Contrast& contrast)
+/// Not 0 for pixels whose best label is outside the core and that are certain of it or that no label inside
+/// explains.
+std::vector<std::uint8_t> clearlyOutside(const LabelRange& core, const CostVolume& volume,
+                                         const Winners& winners, const Contrast& contrast, ThreadPool& pool)
 {
-  constexpr std::size_t LEAST_PATCH_PX = 8;
-  std::vector<std::uint8_t> member(volume.area(), 0);
-  for (std::size_t i = 0; i < member.size(); ++i)
+  std::vector<std::uint8_t> outside(volume.area(), 0);
+  const auto mark = [&](std::size_t i)
   {
-    const bool outside = winners.label[i] < core.first || winners.label[i] > core.last;
-    if (outside &&
+    if ((winners.label[i] < core.first || winners.label[i] > core.last) &&
         (isCertain(winners, i, contrast) || contrast.isClear(winners.cost[i], leastCost(volume, core, i))))
     {
-      member[i] = 1;
+      outside[i] = 1;
     }
-  }
+  };
+  pool.parallelFor(0, volume.size.area(), PIXELS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+                     {
+                       mark(i);
+                     }
+                   });
+  return outside;
+}
+
+/// Widens the core by the labels of connected patches of pixels that are clearly outside it.
+LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners& winners,
+                 const Contrast& contrast, ThreadPool& pool)
+{
+  constexpr std::size_t LEAST_PATCH_PX = 8;
+  std::vector<std::uint8_t> member = clearlyOutside(core, volume, winners, contrast, pool);
   PatchFinder finder(winners, volume.size, member);
   LabelRange supported = core;
   for (int i = 0; i < volume.size.area(); ++i)
@@ -306,12 +341,12 @@ std::optional<LabelSupport> findSupportedLabels(const CostVolume& volume, Thread
 {
   const Winners winners = findWinners(volume, pool);
   const Contrast contrast(median(winners.cost));
-  const std::optional<LabelRange> core = coreOf(winners, contrast, volume.labels);
+  const std::optional<LabelRange> core = coreOf(countCertain(winners, contrast, volume.labels, pool));
   if (!core)
   {
     return std::nullopt;
   }
-  return LabelSupport{*core, widen(*core, volume, winners, contrast)};
+  return LabelSupport{*core, widen(*core, volume, winners, contrast, pool)};
 }
 
 }  // namespace light_field_depth

@@ -27,8 +27,8 @@ struct ViewExposure
 ///
 /// Scene points are matched in a plane sweep of reduced views whose local mean and contrast have been made
 /// alike, which leaves nothing of a difference in exposure; then each view's model is fitted to the
-/// brightness of the matched points, without those that are nearly black, nearly white or fit badly. About 4
-/// ms for 17 views of 512 x 512 pixels in colour on two threads.
+/// brightness of the matched points, without those that are nearly black, nearly white or fit badly. About
+/// 2 ms for 17 views of 512 x 512 pixels in colour on two threads.
 ///
 /// @param light_field of 8-bit views; see toEightBit()
 /// @param max_displacement_px how far a point may move between the reference view and the view nearest to it;

@@ -16,7 +16,7 @@ namespace light_field_depth
 ///
 /// Within a fifth for white noise of 1 to 10 grey levels, if a tenth of the image is without fine texture.
 /// Noise that is correlated from pixel to pixel (after demosaicing or compression) is taken for less than it
-/// is. About 0.4 ms for 512 x 512 pixels in colour.
+/// is. About 0.1 ms for 512 x 512 pixels in colour.
 /// @param image CV_8UC1 or CV_8UC3, at least 16 x 16; see toEightBit()
 /// @return 0 for an image without noise. Thread safe.
 /// @throw InputError for an image of another type or size
