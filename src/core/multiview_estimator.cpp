@@ -269,23 +269,24 @@ LightField MultiviewEstimator::measureQuickly(const LightField& views, const Est
     return measure(views, request, context, measures);
   }
   LightField chosen = views;
+  LightField quarter;
   measures.exposures.resize(views.views.size());
   {
     const StageTimer timer(context, "exposure");
-    if (!multiview::looksEvenlyExposed(buffers_->quarter.reduce(views, context.pool)))
+    quarter = buffers_->quarter.reduce(views, context.pool);
+    if (!multiview::looksEvenlyExposed(quarter))
     {
       measures.exposures = estimateExposure(views, context.pool);
       chosen = compensateExposure(views, measures.exposures, context.pool);
+      quarter = buffers_->quarter.reduce(chosen, context.pool);
     }
   }
   {
     const StageTimer timer(context, "range");
     DisparityRangeOptions range_options;
     range_options.max_displacement_px *= 0.25F;
-    measures.range =
-        request.disparity_range
-            ? *request.disparity_range
-            : findDisparityRange(buffers_->quarter.reduce(chosen, context.pool), context.pool, range_options);
+    measures.range = request.disparity_range ? *request.disparity_range
+                                             : findDisparityRange(quarter, context.pool, range_options);
   }
   const StageTimer timer(context, "noise");
   measures.noise_sigma = estimateNoise(chosen.reference().image);
