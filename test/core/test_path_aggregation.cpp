@@ -11,6 +11,7 @@
 
 #include "light_field_depth/core/multiview/path_aggregation.h"
 #include "light_field_depth/core/multiview/path_kernels.h"
+#include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview
 {
@@ -44,7 +45,43 @@ struct TileBuffers
   std::vector<std::uint16_t> sums;
 };
 
-TEST(PathKernels, TilesEqualThePlainVersion)
+class PathKernels : public testing::InstructionSetTest
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, PathKernels, testing::everyInstructionSet(),
+                         testing::instructionSetName);
+
+TEST_P(PathKernels, StepsEqualThePlainVersion)
+{
+  constexpr int width = 203;  // no multiple of any vector
+  constexpr std::size_t stride = 256;
+  const auto pixels = randomValues<std::uint8_t>(6 * stride, 90, 97, 8);
+  for (const int channels : {1, 3})
+  {
+    std::vector<std::uint16_t> simd(stride);
+    std::vector<std::uint16_t> plain(stride);
+    StepRow row;
+    row.here = pixels.data();
+    row.neighbour = pixels.data() + 3 * stride;
+    row.channel_stride = stride;
+    row.channels = channels;
+    row.width = width;
+    row.large_step = 1200.0F;
+    row.least_step = 67.5F;
+    row.steps = simd.data();
+    stepRow(row);
+    row.steps = plain.data();
+    stepRowPlain(row);
+    simd.resize(width);
+    plain.resize(width);
+    EXPECT_EQ(simd, plain) << channels << " channels";
+    EXPECT_GT(*std::max_element(plain.begin(), plain.end()), 500);
+    EXPECT_EQ(*std::min_element(plain.begin(), plain.end()), 68);
+  }
+}
+
+TEST_P(PathKernels, TilesEqualThePlainVersion)
 {
   for (const int labels : {1, 2, 29})
   {
@@ -80,7 +117,7 @@ TEST(PathKernels, TilesEqualThePlainVersion)
   }
 }
 
-TEST(PathKernels, TransposedTilesEqualThePlainVersion)
+TEST_P(PathKernels, TransposedTilesEqualThePlainVersion)
 {
   constexpr int labels = 5;
   const auto bytes = randomValues<std::uint8_t>(labels * TILE_AREA, 0, 255, 4);
@@ -99,7 +136,7 @@ TEST(PathKernels, TransposedTilesEqualThePlainVersion)
   EXPECT_EQ(plain_words, words);
 }
 
-TEST(PathKernels, LabelsEqualThePlainVersion)
+TEST_P(PathKernels, LabelsEqualThePlainVersion)
 {
   for (const int labels : {1, 2, 29})
   {

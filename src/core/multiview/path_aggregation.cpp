@@ -13,20 +13,6 @@ namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
 
-using StepTable = std::array<std::uint16_t, COLOUR_DIFFERENCES>;
-
-StepTable makeStepTable(const PathSettings& settings)
-{
-  StepTable table{};
-  const float floor = settings.large_step_floor * static_cast<float>(settings.small_step);
-  for (std::size_t difference = 0; difference < table.size(); ++difference)
-  {
-    const float step = static_cast<float>(settings.large_step) / (1.0F + static_cast<float>(difference));
-    table[difference] = static_cast<std::uint16_t>(std::lround(std::max(floor, step)));
-  }
-  return table;
-}
-
 /// The states of TILE_PX paths on their way through tiles with different bands.
 class PathState
 {
@@ -90,23 +76,26 @@ void PathAggregator::setGuide(const PlanarImage& guide, const PathSettings& sett
   step_stride_ = padded(guide.width());
   step_left_.resize(step_stride_ * padded(guide.height()));
   step_above_.resize(step_left_.size());
-  const StepTable table = makeStepTable(settings);
-  const auto step = [&](const std::uint8_t* a, const std::uint8_t* b)
-  { return table[colourDifference(guide, a, b)]; };
+  StepRow row;
+  row.channel_stride = guide.channelStride();
+  row.channels = guide.channels();
+  row.width = guide.width();
+  row.large_step = static_cast<float>(settings.large_step);
+  row.least_step = settings.large_step_floor * static_cast<float>(settings.small_step);
   pool.parallelFor(0, guide.height(), ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
-                     const auto width = static_cast<std::size_t>(guide.width());
+                     StepRow step = row;
                      for (int y = first; y < last; ++y)
                      {
-                       const std::uint8_t* const row = guide.row(y);
-                       const std::uint8_t* const above = guide.row(y - 1);
                        const std::size_t offset = static_cast<std::size_t>(y) * step_stride_;
-                       for (std::size_t x = 0; x < width; ++x)
-                       {
-                         step_left_[offset + x] = step(row + x - (x > 0 ? 1 : 0), row + x);
-                         step_above_[offset + x] = step(above + x, row + x);
-                       }
+                       step.here = guide.row(y);
+                       step.neighbour = step.here - 1;
+                       step.steps = step_left_.data() + offset;
+                       stepRow(step);
+                       step.neighbour = guide.row(y - 1);
+                       step.steps = step_above_.data() + offset;
+                       stepRow(step);
                      }
                    });
 }

@@ -16,6 +16,11 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 // A processor without any of the known vector instructions.
+void stepRowSimd(const StepRow& row)
+{
+  stepRowPlain(row);
+}
+
 void aggregateTileSimd(const PathTile& tile)
 {
   aggregateTilePlain(tile);
@@ -41,6 +46,49 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Words = hn::CappedTag<std::uint16_t, TILE_PX>;
 using WordBytes = hn::Rebind<std::uint8_t, Words>;
 using Vector = hn::Vec<Words>;
+
+HWY_INLINE Vector changeOfChannel(const std::uint8_t* here, const std::uint8_t* neighbour)
+{
+  const WordBytes bytes;
+  const auto a = hn::LoadU(bytes, here);
+  const auto b = hn::LoadU(bytes, neighbour);
+  return hn::PromoteTo(Words(), hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)));
+}
+
+void stepRowSimd(const StepRow& row)
+{
+  const Words words;
+  const hn::Half<Words> half_words;
+  const hn::Repartition<std::int32_t, Words> integers;
+  const hn::Repartition<float, Words> floats;
+  const auto steps = [&](hn::Vec<hn::Half<Words>> change) HWY_ATTR
+  {
+    const auto divisor =
+        hn::Add(hn::Set(floats, 1.0F), hn::ConvertTo(floats, hn::PromoteTo(integers, change)));
+    const auto step =
+        hn::Max(hn::Set(floats, row.least_step), hn::Div(hn::Set(floats, row.large_step), divisor));
+    return hn::DemoteTo(half_words, hn::ConvertTo(integers, hn::Add(step, hn::Set(floats, 0.5F))));
+  };
+  for (int x = 0; x < row.width; x += static_cast<int>(hn::Lanes(words)))
+  {
+    const std::uint8_t* const here = row.here + x;
+    const std::uint8_t* const neighbour = row.neighbour + x;
+    const std::size_t stride = row.channel_stride;
+    auto change = changeOfChannel(here, neighbour);
+    if (row.channels == 3)
+    {
+      change = hn::Add(change, changeOfChannel(here + stride, neighbour + stride));
+      change = hn::Add(change, changeOfChannel(here + 2 * stride, neighbour + 2 * stride));
+    }
+    else
+    {
+      change = hn::Add(change, hn::Add(change, change));
+    }
+    hn::StoreU(hn::Combine(words, steps(hn::UpperHalf(half_words, change)),
+                           steps(hn::LowerHalf(half_words, change))),
+               words, row.steps + x);
+  }
+}
 
 /// All labels of some paths in one line.
 template <bool ADD>
@@ -214,10 +262,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
+HWY_EXPORT(stepRowSimd);
 HWY_EXPORT(aggregateTileSimd);
 HWY_EXPORT(transposeBytesSimd);
 HWY_EXPORT(transposeWordsSimd);
 HWY_EXPORT(selectLabelsSimd);
+
+void stepRow(const StepRow& row)
+{
+  HWY_DYNAMIC_DISPATCH(stepRowSimd)(row);
+}
 
 void aggregateTile(const PathTile& tile)
 {
