@@ -44,6 +44,8 @@ void adaptToNoise(float noise_sigma, SolverSettings& settings)
   if (noise_sigma >= STRONG_SIGMA)
   {
     settings.linearization.window_radius = WIDE_WINDOW_RADIUS;
+    settings.last_small_step_share = 1.0F;
+    settings.last_large_step_share = 1.0F;
     // Worth their time only here, and only where colour is worth its time.
     if (!settings.grey_search)
     {

@@ -29,6 +29,13 @@ void save(const RunContext& context, const char* name, const cv::Mat& values)
   }
 }
 
+PathSettings lastPaths(PathSettings paths, const SolverSettings& settings)
+{
+  paths.small_step = cvRound(settings.last_small_step_share * static_cast<float>(paths.small_step));
+  paths.large_step = cvRound(settings.last_large_step_share * static_cast<float>(paths.large_step));
+  return paths;
+}
+
 }  // namespace
 
 void Solver::run(const LightField& light_field, const SolverSettings& settings, RunContext& context)
@@ -102,10 +109,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
   {
     return false;
   }
-  {
-    const StageTimer timer(context, "aggregate");
-    aggregator_.setGuide(guide(), paths_, context.pool);
-  }
+  setPaths(paths_, context);
   aggregate(settings, context);
   if (settings.watch_scene && !acceptFirstMap(settings, where, context))
   {
@@ -132,9 +136,20 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
         background_.hold(context.pool, volume_);
       }
     }
+    if (pass + 1 == settings.visibility_passes)
+    {
+      setPaths(lastPaths(paths_, settings), context);
+    }
     aggregate(settings, context);
   }
   return true;
+}
+
+void Solver::setPaths(const PathSettings& paths, RunContext& context)
+{
+  const StageTimer timer(context, "aggregate");
+  paths_ = paths;
+  aggregator_.setGuide(guide(), paths_, context.pool);
 }
 
 bool Solver::computeFirstCosts(const SolverSettings& settings, const CostSettings& cost, SearchIn where,

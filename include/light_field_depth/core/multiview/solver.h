@@ -35,6 +35,10 @@ struct SolverSettings
   double blur_sigma_px = 0.0;  ///< of the views before anything else
   CostSettings cost;
   PathSettings paths;  ///< small_step for labels 1/8 px apart, scaled to what the range needs
+  /// Of P1 and P2 in the last search. The first one has to find the surfaces from costs that occlusions
+  /// spoil; the last one knows who sees what, and may follow their shapes and contours more freely.
+  float last_small_step_share = 1.5F;
+  float last_large_step_share = 0.75F;
   int visibility_passes = 1;
   bool fuse_background = true;
   BackgroundSettings background;
@@ -85,6 +89,7 @@ private:
   bool computeFirstCosts(const SolverSettings& settings, const CostSettings& cost, SearchIn where,
                          RunContext& context);
   bool acceptFirstMap(const SolverSettings& settings, SearchIn where, RunContext& context);
+  void setPaths(const PathSettings& paths, RunContext& context);
   void aggregate(const SolverSettings& settings, RunContext& context);
   void fuseBackground(const SolverSettings& settings, RunContext& context);
   void refine(const SolverSettings& settings, RunContext& context);
