@@ -12,6 +12,7 @@
 #include "light_field_depth/core/multiview/linearize_kernels.h"
 #include "light_field_depth/core/multiview/median.h"
 #include "light_field_depth/core/multiview/path_kernels.h"
+#include "light_field_depth/core/multiview/pixel_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
 #include "light_field_depth/core/multiview/smoothing_kernels.h"
 #include "light_field_depth/core/multiview/visibility_kernels.h"
@@ -315,6 +316,27 @@ Kernel halving()
           PIXELS * (4.0 * CHANNELS + 1.0), with(halveRow),  with(halveRowPlain)};
 }
 
+Kernel pixelSplitting()
+{
+  struct Rows
+  {
+    std::vector<std::uint8_t> pixels = randomBytes(CHANNELS * STRIDE, 255);
+    std::vector<std::uint8_t> planes = std::vector<std::uint8_t>(CHANNELS * STRIDE);
+  };
+  const auto rows = std::make_shared<Rows>();
+  const auto with = [&](auto kernel)
+  {
+    return calling(rows,
+                   [kernel](Rows& data)
+                   {
+                     std::uint8_t* const plane = data.planes.data();
+                     kernel({data.pixels.data(), WIDTH, {plane, plane + STRIDE, plane + 2 * STRIDE}});
+                   });
+  };
+  return {"pixels to planes",    "pixel", PIXELS, PIXELS * (3.0 * CHANNELS + 1.0), with(splitPixels),
+          with(splitPixelsPlain)};
+}
+
 Kernel medians()
 {
   struct Labels
@@ -461,9 +483,9 @@ Kernel columnElimination()
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(),  armCost(),       visibleCost(),      transposition(), tilePaths(),
-          labelSelection(), linearization(), warping(),          halving(),       medians(),
-          support(),        rowSolution(),   columnElimination()};
+  return {interpolation(),  armCost(),       visibleCost(), transposition(),    tilePaths(),
+          labelSelection(), linearization(), warping(),     halving(),          pixelSplitting(),
+          medians(),        support(),       rowSolution(), columnElimination()};
 }
 
 }  // namespace light_field_depth::benchmark

@@ -11,6 +11,7 @@
 #include "light_field_depth/core/multiview/cubic_taps.h"
 #include "light_field_depth/core/multiview/label_space.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
+#include "light_field_depth/core/multiview/pixel_kernels.h"
 #include "light_field_depth/core/multiview/sample_rows.h"
 #include "light_field_depth/core/multiview/view_set.h"
 #include "light_field_depth/core/multiview/visibility_kernels.h"
@@ -92,6 +93,19 @@ TEST_P(MultiviewKernels, WarpTargetsEqualThePlainVersion)
     const auto line = static_cast<int>(std::floor(2.5F - step_y * disparity[100]));
     EXPECT_EQ(plain[100], line >= 0 && line < 24 ? line * 256 + column + 8 : 0);
   }
+}
+
+TEST_P(MultiviewKernels, PixelsAreSplitAsInThePlainVersion)
+{
+  Random random;
+  const auto pixels = random.bytes(3 * WIDTH);
+  std::vector<std::uint8_t> simd(3 * STRIDE, 9);
+  auto plain = simd;
+  splitPixels({pixels.data(), WIDTH, {simd.data(), simd.data() + STRIDE, simd.data() + 2 * STRIDE}});
+  splitPixelsPlain({pixels.data(), WIDTH, {plain.data(), plain.data() + STRIDE, plain.data() + 2 * STRIDE}});
+  EXPECT_EQ(simd, plain);
+  EXPECT_EQ(plain[STRIDE + 100], pixels[301]);
+  EXPECT_EQ(plain[STRIDE + WIDTH], 9);
 }
 
 TEST_P(MultiviewKernels, InterpolationEqualsThePlainVersion)

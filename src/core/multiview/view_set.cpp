@@ -1,10 +1,13 @@
 #include "light_field_depth/core/multiview/view_set.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
+
+#include "light_field_depth/core/multiview/pixel_kernels.h"
 
 namespace light_field_depth::multiview
 {
@@ -59,15 +62,10 @@ std::vector<std::vector<std::size_t>> viewsByDirection(const LightField& light_f
   return by_direction;
 }
 
-void fillRow(const std::uint8_t* pixels, int pixel_stride, PlanarImage& planar, int y, int channel)
+/// Repeats the ends of a row of one channel.
+void fillPads(const PlanarImage& planar, std::uint8_t* row)
 {
-  std::uint8_t* const row = planar.row(y) + static_cast<std::size_t>(channel) * planar.channelStride();
   const int width = planar.width();
-  for (int x = 0; x < width; ++x)
-  {
-    row[x] = *pixels;
-    pixels += pixel_stride;
-  }
   const std::size_t right = planar.channelStride() - static_cast<std::size_t>(planar.pad() + width);
   std::memset(row - planar.pad(), row[0], static_cast<std::size_t>(planar.pad()));
   std::memset(row + width, row[width - 1], right);
@@ -90,11 +88,22 @@ cv::Mat preparedImage(const cv::Mat& image, const ViewSetSettings& settings)
 void toPlanar(const cv::Mat& image, int pad, PlanarImage& planar)
 {
   planar.create(image.cols, image.rows, image.channels(), pad);
+  const std::size_t stride = planar.channelStride();
   for (int y = 0; y < planar.height(); ++y)
   {
-    for (int channel = 0; channel < planar.channels(); ++channel)
+    const auto* const row = image.ptr<std::uint8_t>(y);
+    std::uint8_t* const plane = planar.row(y);
+    if (planar.channels() == 1)
     {
-      fillRow(image.ptr<std::uint8_t>(y) + channel, planar.channels(), planar, y, channel);
+      std::copy_n(row, image.cols, plane);
+    }
+    else
+    {
+      splitPixels({row, image.cols, {plane, plane + stride, plane + 2 * stride}});
+    }
+    for (std::size_t channel = 0; channel < static_cast<std::size_t>(planar.channels()); ++channel)
+    {
+      fillPads(planar, plane + channel * stride);
     }
   }
 }
