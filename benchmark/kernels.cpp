@@ -7,6 +7,7 @@
 #include <random>
 
 #include "light_field_depth/core/multiview/background_kernels.h"
+#include "light_field_depth/core/multiview/confidence_kernels.h"
 #include "light_field_depth/core/multiview/cost_kernels.h"
 #include "light_field_depth/core/multiview/half_resolution.h"
 #include "light_field_depth/core/multiview/linearize_kernels.h"
@@ -337,6 +338,37 @@ Kernel pixelSplitting()
           with(splitPixelsPlain)};
 }
 
+Kernel evidence()
+{
+  struct Maps
+  {
+    std::vector<float> values = std::vector<float>(PIXELS, 0.1F);
+    std::vector<float> against = std::vector<float>(PIXELS);
+    EvidenceRow row;
+
+    Maps()
+    {
+      for (const float** map :
+           {&row.disparity, &row.searched, &row.first_search, &row.target, &row.weight, &row.disagreement,
+            &row.residual, &row.low, &row.high, &row.wide_low, &row.wide_high})
+      {
+        *map = values.data();
+      }
+      row.width = WIDTH;
+    }
+  };
+  const auto maps = std::make_shared<Maps>();
+  const auto with = [&](auto kernel)
+  { return calling(maps, [kernel](Maps& data) { kernel(data.row, data.against.data()); }); };
+  constexpr double maps_per_pixel = 12.0;
+  return {"evidence of the confidence",
+          "pixel",
+          PIXELS,
+          PIXELS * maps_per_pixel * sizeof(float),
+          with(weighEvidence),
+          with(weighEvidencePlain)};
+}
+
 Kernel medians()
 {
   struct Labels
@@ -483,9 +515,9 @@ Kernel columnElimination()
 
 std::vector<Kernel> kernels()
 {
-  return {interpolation(),  armCost(),       visibleCost(), transposition(),    tilePaths(),
-          labelSelection(), linearization(), warping(),     halving(),          pixelSplitting(),
-          medians(),        support(),       rowSolution(), columnElimination()};
+  return {interpolation(),  armCost(),       visibleCost(), transposition(), tilePaths(),
+          labelSelection(), linearization(), warping(),     halving(),       pixelSplitting(),
+          medians(),        evidence(),      support(),     rowSolution(),   columnElimination()};
 }
 
 }  // namespace light_field_depth::benchmark

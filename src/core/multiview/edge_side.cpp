@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "light_field_depth/core/multiview/window_extent.h"
 
 namespace light_field_depth::multiview
 {
@@ -71,11 +75,9 @@ public:
   }
 
   /// The disparity that pixel (x, y) should have, at least RADIUS + 1 pixels inside the image.
-  float decide(int x, int y) const
+  /// @param low, high of the disparities in 3 x 3 pixels
+  float decide(int x, int y, float low, float high) const
   {
-    float low = 0.0F;
-    float high = 0.0F;
-    range(x, y, low, high);
     const float here = disparity_.at<float>(y, x);
     const float middle = 0.5F * (low + high);
     if (high - low < settings_.min_jump_px || here <= middle)
@@ -176,12 +178,21 @@ void decideEdgeSides(const PlanarImage& image, const EdgeSideSettings& settings,
   pool.parallelFor(margin, disparity.rows - margin, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
+                     std::vector<float> columns(extentScratch(disparity.cols));
+                     std::vector<float> low(static_cast<std::size_t>(disparity.cols));
+                     std::vector<float> high(low);
                      for (int y = first; y < last; ++y)
                      {
+                       ExtentRow extents = extentRowOf(scratch, y, 1);
+                       extents.columns = columns.data();
+                       extents.low = low.data();
+                       extents.high = high.data();
+                       findExtents(extents);
                        auto* const row = disparity.ptr<float>(y);
                        for (int x = margin; x < disparity.cols - margin; ++x)
                        {
-                         row[x] = decision.decide(x, y);
+                         const auto at = static_cast<std::size_t>(x);
+                         row[x] = decision.decide(x, y, low[at], high[at]);
                        }
                      }
                    });
