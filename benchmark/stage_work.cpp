@@ -58,7 +58,7 @@ StageWork aggregate(const FrameSize& frame)
 StageWork median(const FrameSize& frame)
 {
   const double passes = 1.0 + frame.visibility_passes;
-  return {"median", passes * frame.pixels * 4.0 * FLOAT, 0.0, Lane::None};
+  return {"median", passes * frame.pixels * 2.0 * FLOAT, 0.0, Lane::None};
 }
 
 StageWork linearize(const FrameSize& frame)
@@ -74,12 +74,12 @@ StageWork linearize(const FrameSize& frame)
 StageWork smooth(const FrameSize& frame)
 {
   const multiview::SmoothingSettings settings;
-  constexpr double link_bytes = FLOAT * (1.0 + 2.0 + 2.0);  // disparity and guides read, links written
+  // In the first sweep guides are read and links written instead of links read.
+  constexpr double link_bytes = FLOAT * 2.0;
   constexpr double link_operations = 14.0;
-  // Rows of either parity: weight, target, left links; upper links twice; other rows read, rows written.
-  constexpr double row_bytes = FLOAT * (3.0 + 2.0 + 1.0 + 1.0);
-  // Forth: weight, target, links, disparity read, factors written; back: factors read, disparity written.
-  constexpr double column_bytes = FLOAT * (5.0 + 2.0 + 2.0 + 1.0);
+  // A band of rows, and likewise columns: weight, target, links, disparity read, disparity written.
+  constexpr double row_bytes = FLOAT * (5.0 + 1.0);
+  constexpr double column_bytes = FLOAT * (5.0 + 1.0);
   constexpr double line_operations = 24.0;
   const double runs = frame.refinements * settings.reweightings;
   return {"smooth",

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "light_field_depth/core/multiview/background_kernels.h"
+#include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview
 {
@@ -15,7 +16,7 @@ namespace
 constexpr int LABELS = 24;
 
 /// Rows of tiles with random costs, whose bands differ.
-class BackgroundKernelsTest : public ::testing::Test
+class BackgroundKernelsTest : public testing::InstructionSetTest
 {
 protected:
   std::vector<std::uint8_t> randomBytes(std::size_t count)
@@ -27,7 +28,7 @@ protected:
 
   TileLine randomLine(int first, int end)
   {
-    memory_.push_back(randomBytes(static_cast<std::size_t>((end - first) * TILE_PX)));
+    memory_.push_back(randomBytes(static_cast<std::size_t>(end - first) * TILE_PX));
     return {memory_.back().data(), {first, end - first}};
   }
 
@@ -51,7 +52,10 @@ protected:
   std::vector<std::vector<std::uint8_t>> memory_;
 };
 
-TEST_F(BackgroundKernelsTest, CostsAtTheLabelsEqualThePlainVersion)
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, BackgroundKernelsTest, testing::everyInstructionSet(),
+                         testing::instructionSetName);
+
+TEST_P(BackgroundKernelsTest, CostsAtTheLabelsEqualThePlainVersion)
 {
   std::uniform_real_distribution<float> distribution(-1.0F, LABELS + 1.0F);
   std::vector<float> label(TILE_PX);
@@ -80,7 +84,7 @@ TEST_F(BackgroundKernelsTest, CostsAtTheLabelsEqualThePlainVersion)
   }
 }
 
-TEST_F(BackgroundKernelsTest, SupportedPixelsEqualThePlainVersion)
+TEST_P(BackgroundKernelsTest, SupportedPixelsEqualThePlainVersion)
 {
   int supported = 0;
   for (int round = 0; round < 200; ++round)
@@ -111,7 +115,7 @@ TEST_F(BackgroundKernelsTest, SupportedPixelsEqualThePlainVersion)
 }
 
 /// Costs that are 10 at one label and 16 beside it: 9 pixels of 12.
-TEST_F(BackgroundKernelsTest, ThePixelsInTheMiddleOfAValleyAreSupported)
+TEST_P(BackgroundKernelsTest, ThePixelsInTheMiddleOfAValleyAreSupported)
 {
   constexpr std::int16_t label = 4;
   std::vector<std::uint8_t> costs(static_cast<std::size_t>(LABELS) * TILE_PX, 16);
@@ -132,7 +136,7 @@ TEST_F(BackgroundKernelsTest, ThePixelsInTheMiddleOfAValleyAreSupported)
   }
 }
 
-TEST_F(BackgroundKernelsTest, ChargesEqualThePlainVersionAndStopAt255)
+TEST_P(BackgroundKernelsTest, ChargesEqualThePlainVersionAndStopAt255)
 {
   const auto charge = randomBytes(LABELS);
   auto costs = randomBytes(static_cast<std::size_t>(LABELS) * TILE_PX);

@@ -8,6 +8,7 @@
 
 #include "light_field_depth/core/multiview/confidence_kernels.h"
 #include "light_field_depth/core/multiview/window_extent.h"
+#include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview
 {
@@ -24,7 +25,14 @@ cv::Mat randomMap(int height, int width, float low, float high)
   return map;
 }
 
-TEST(WindowExtent, EqualsThePlainVersionAndMorphology)
+class ConfidenceKernels : public testing::InstructionSetTest
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, ConfidenceKernels, testing::everyInstructionSet(),
+                         testing::instructionSetName);
+
+TEST_P(ConfidenceKernels, WindowsEqualThePlainVersionAndMorphology)
 {
   for (const int width : {1, 2, 3, 16, 33, WIDTH})
   {
@@ -84,7 +92,7 @@ struct Evidence
   }
 };
 
-TEST(ConfidenceKernels, WeighedEvidenceEqualsThePlainVersion)
+TEST_P(ConfidenceKernels, WeighedEvidenceEqualsThePlainVersion)
 {
   const Evidence evidence;
   std::vector<float> simd(WIDTH);
@@ -94,7 +102,7 @@ TEST(ConfidenceKernels, WeighedEvidenceEqualsThePlainVersion)
   EXPECT_EQ(simd, plain);
 }
 
-TEST(ConfidenceKernels, EveryPieceOfEvidenceSpeaksAgainstTheDisparity)
+TEST_P(ConfidenceKernels, EveryPieceOfEvidenceSpeaksAgainstTheDisparity)
 {
   const std::vector<float> nothing(WIDTH, 0.0F);
   const std::vector<float> something(WIDTH, 0.2F);

@@ -9,6 +9,7 @@
 
 #include "light_field_depth/core/multiview/edge_aware_smoothing.h"
 #include "light_field_depth/core/multiview/smoothing_kernels.h"
+#include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview
 {
@@ -64,7 +65,14 @@ struct System
   cv::Mat disparity;
 };
 
-TEST(SmoothingKernels, ChangesOfColourEqualThePlainVersion)
+class SmoothingKernels : public testing::InstructionSetTest
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, SmoothingKernels, testing::everyInstructionSet(),
+                         testing::instructionSetName);
+
+TEST_P(SmoothingKernels, ChangesOfColourEqualThePlainVersion)
 {
   std::mt19937 engine(3);
   std::vector<std::uint8_t> pixels(6 * 256);
@@ -84,7 +92,7 @@ TEST(SmoothingKernels, ChangesOfColourEqualThePlainVersion)
   }
 }
 
-TEST(SmoothingKernels, LinksEqualThePlainVersion)
+TEST_P(SmoothingKernels, LinksEqualThePlainVersion)
 {
   const cv::Mat guide = randomMap(2, WIDTH, 0.0F, 200.0F);
   const cv::Mat disparity = randomMap(2, WIDTH, 0.0F, 0.1F);
@@ -111,7 +119,7 @@ TEST(SmoothingKernels, LinksEqualThePlainVersion)
   }
 }
 
-TEST(SmoothingKernels, RowsSolvedSideBySideEqualThePlainVersion)
+TEST_P(SmoothingKernels, RowsSolvedSideBySideEqualThePlainVersion)
 {
   for (const int width : {1, 2, 3, 31, 32, 65, WIDTH})
   {
@@ -137,7 +145,7 @@ TEST(SmoothingKernels, RowsSolvedSideBySideEqualThePlainVersion)
 }
 
 /// Each unknown is the mean of its target and its neighbours with their weights.
-TEST(SmoothingKernels, SolvedRowsFulfilTheirEquations)
+TEST_P(SmoothingKernels, SolvedRowsFulfilTheirEquations)
 {
   const System system(3, WIDTH);
   cv::Mat values = system.disparity.clone();
@@ -155,7 +163,7 @@ TEST(SmoothingKernels, SolvedRowsFulfilTheirEquations)
   }
 }
 
-TEST(SmoothingKernels, StepsAlongColumnsEqualThePlainVersion)
+TEST_P(SmoothingKernels, StepsAlongColumnsEqualThePlainVersion)
 {
   const System system(2, WIDTH);
   const cv::Mat above = randomMap(2, WIDTH, 0.0F, 0.9F);

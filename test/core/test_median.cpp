@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/multiview/median.h"
+#include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview
 {
@@ -39,7 +40,14 @@ MedianRow rowAbout(const cv::Mat& labels, int y, std::vector<float>& scratch, st
   return row;
 }
 
-TEST(Median, VectorsEqualThePlainVersion)
+class Median : public testing::InstructionSetTest
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, Median, testing::everyInstructionSet(),
+                         testing::instructionSetName);
+
+TEST_P(Median, VectorsEqualThePlainVersion)
 {
   std::vector<float> scratch;
   std::vector<float> simd;
@@ -61,7 +69,7 @@ TEST(Median, VectorsEqualThePlainVersion)
 
 /// All windows of zeros and ones, but for the order within a column: what selects the median of all of them
 /// selects that of any numbers.
-TEST(Median, SelectsTheMedianOfEveryWindowOfZerosAndOnes)
+TEST_P(Median, SelectsTheMedianOfEveryWindowOfZerosAndOnes)
 {
   constexpr int kinds = MEDIAN_SIZE + 1;  // of columns
   constexpr int windows = kinds * kinds * kinds * kinds * kinds;
@@ -86,7 +94,7 @@ TEST(Median, SelectsTheMedianOfEveryWindowOfZerosAndOnes)
   EXPECT_EQ(simd, plain);
 }
 
-TEST(Median, OfAMapRepeatsTheBordersOnAnyNumberOfThreads)
+TEST_P(Median, OfAMapRepeatsTheBordersOnAnyNumberOfThreads)
 {
   const LabelSpace space{-2.0F, 0.125F, 9};
   const cv::Mat labels = randomLabels(37, 50, false);

@@ -237,7 +237,7 @@ void BackgroundFusion::chooseFloors(int block_y, int labels)
     {
       for (int x = std::max(block_x - 1, 0); x <= std::min(block_x + 1, floor_.cols - 1); ++x)
       {
-        const auto block = static_cast<std::ptrdiff_t>(row * floor_.cols + x);
+        const std::ptrdiff_t block = static_cast<std::ptrdiff_t>(row) * floor_.cols + x;
         const auto counts = believed_.begin() + block * labels;
         std::transform(about.begin(), about.end(), counts, about.begin(), std::plus<>());
       }

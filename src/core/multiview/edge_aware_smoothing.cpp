@@ -16,7 +16,7 @@ namespace
 constexpr int ROWS_PER_CHUNK = 16;
 /// Rows that are worked on while they are in the cache of a core; even.
 constexpr int BAND_ROWS = 2 * ROWS_AT_ONCE;
-constexpr int COLUMNS_PER_CHUNK = 64;
+constexpr int COLUMNS_PER_CHUNK = 128;
 
 }  // namespace
 

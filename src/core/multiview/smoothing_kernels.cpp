@@ -1,6 +1,7 @@
 // Compiled once for each instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "multiview/smoothing_kernels.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -150,6 +151,24 @@ HWY_INLINE void toRows(const ColumnTile& columns, RowTile& tile)
   }
 }
 
+/// No processor foresees which row comes next, far from the last one.
+constexpr int ROWS_AHEAD = 4;
+
+HWY_INLINE void prefetchSystem(const SystemRow& row, int first)
+{
+  constexpr int cache_line = 64 / static_cast<int>(sizeof(float));
+  for (int x = first; x < first + TILE_COLUMNS; x += cache_line)
+  {
+    hwy::Prefetch(row.weight + x);
+    hwy::Prefetch(row.target + x);
+    hwy::Prefetch(row.left + x);
+    hwy::Prefetch(row.up + x);
+    hwy::Prefetch(row.down + x);
+    hwy::Prefetch(row.above + x);
+    hwy::Prefetch(row.below + x);
+  }
+}
+
 /// What the row and its neighbours above and below say about the unknowns first .. last - 1.
 HWY_INLINE void setSystem(const SystemRow& row, int first, int last, float* left, float* diagonal,
                           float* side)
@@ -177,6 +196,8 @@ void setSystemTile(const SystemRow* rows, int count, int first, int last, System
 {
   for (int r = 0; r < count; ++r)
   {
+    const int ahead = r + ROWS_AHEAD;
+    prefetchSystem(rows[ahead % count], ahead < count ? first : last);
     setSystem(rows[r], first, last, tile.left.at[r], tile.diagonal.at[r], tile.side.at[r]);
   }
   toColumns(tile.left, RowTile::COLUMNS, tile.left_columns);
