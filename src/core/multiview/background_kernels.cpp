@@ -83,8 +83,10 @@ HWY_INLINE std::int16_t sumOfColumn(const SupportLine::Lines& lines, int label, 
 /// What makes every sum too small.
 constexpr std::int16_t NOT_COMPARABLE = -20000;
 
-/// Sums over three pixels above each other, from one left of the tile to one right of it.
-HWY_INLINE void sumColumns(const SupportLine& support, int label, std::int16_t* sums)
+/// Sums over three pixels above each other, from one left of the tile to one right of it; those two only
+/// where the tile's own pixel beside them asks for the label.
+HWY_INLINE void sumColumns(const SupportLine& support, int label, const std::int16_t* labels,
+                           std::int16_t* sums)
 {
   const Words words;
   const hn::Rebind<std::uint8_t, Words> bytes;
@@ -100,10 +102,10 @@ HWY_INLINE void sumColumns(const SupportLine& support, int label, std::int16_t* 
     }
     hn::StoreU(sum, words, sums + 1 + x);
   }
-  sums[0] = isComparable(support.left, label, distance)
+  sums[0] = labels[0] == label && isComparable(support.left, label, distance)
                 ? sumOfColumn(support.left, label, distance, TILE_PX - 1)
                 : NOT_COMPARABLE;
-  sums[TILE_PX + 1] = isComparable(support.right, label, distance)
+  sums[TILE_PX + 1] = labels[TILE_PX - 1] == label && isComparable(support.right, label, distance)
                           ? sumOfColumn(support.right, label, distance, 0)
                           : NOT_COMPARABLE;
 }
@@ -119,7 +121,7 @@ HWY_INLINE int takeLabel(const SupportLine& support, std::int16_t label, std::in
   const bool comparable = isComparable(support.here, label, support.distance);
   if (comparable)
   {
-    sumColumns(support, label, sums);
+    sumColumns(support, label, labels, sums);
   }
   std::size_t count = 0;
   for (std::size_t x = 0; x < TILE_PX; x += hn::Lanes(words))
