@@ -18,6 +18,7 @@ constexpr int FOLLOWED_REACH_PX = 12;
 constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
 /// Distance of the labels that SolverSettings::paths is meant for.
 constexpr float UNIT_LABEL_STEP_PX = 0.125F;
+constexpr int LARGEST_STEP = 12000;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
 
@@ -82,7 +83,7 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
   labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
   paths_ = settings.paths;
   const float small_step = static_cast<float>(paths_.small_step) * labels_.step_px / UNIT_LABEL_STEP_PX;
-  paths_.small_step = std::max(1, cvRound(small_step));
+  paths_.small_step = cvRound(std::min(small_step, static_cast<float>(LARGEST_STEP)));
   ViewSetSettings view_settings;
   view_settings.grey = settings.grey_search;
   view_settings.blur_sigma_px = settings.blur_sigma_px;
@@ -149,6 +150,9 @@ void Solver::setPaths(const PathSettings& paths, RunContext& context)
 {
   const StageTimer timer(context, "aggregate");
   paths_ = paths;
+  // Sixteen bits hold the sums of the paths.
+  paths_.small_step = std::clamp(paths_.small_step, 1, LARGEST_STEP);
+  paths_.large_step = std::clamp(paths_.large_step, 1, LARGEST_STEP);
   aggregator_.setGuide(guide(), paths_, context.pool);
 }
 
