@@ -12,7 +12,9 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-constexpr int ROWS_PER_CHUNK = 64;
+/// A band computes some rows above and below it as well: a few for each thread are enough to share out.
+constexpr int BANDS_PER_THREAD = 3;
+constexpr int LEAST_BAND_ROWS = 16;
 constexpr int DIRECTION_PAIRS = 4;
 constexpr int RESIDUAL_RADIUS = 2;
 /// Added to residuals (three channels, averaged over views and pixels) before arms are compared.
@@ -316,8 +318,10 @@ void Linearizer::run(const ViewSet& views, const cv::Mat& disparity, const Linea
   result.residual.create(disparity.size(), CV_32FC1);
   result.disagreement.create(disparity.size(), CV_32FC1);
   const Spokes spokes = findSpokes(views);
+  const int bands = BANDS_PER_THREAD * pool.threads();
+  const int band_rows = std::max(LEAST_BAND_ROWS, (disparity.rows + bands - 1) / bands);
   pool.parallelFor(
-      0, disparity.rows, ROWS_PER_CHUNK,
+      0, disparity.rows, band_rows,
       [&](int first, int last)
       {
         scratch_.use([&](Scratch& scratch)
