@@ -8,6 +8,22 @@
 
 namespace light_field_depth
 {
+namespace
+{
+/// Between two stages of a frame a thread waits some microseconds; to sleep and to be woken takes longer.
+constexpr int YIELDS_BEFORE_SLEEP = 100;
+
+template <typename Condition>
+void yieldUntil(const Condition& condition)
+{
+  for (int i = 0; i < YIELDS_BEFORE_SLEEP && !condition(); ++i)
+  {
+    std::this_thread::yield();
+  }
+}
+
+}  // namespace
+
 ThreadPool::ThreadPool(int threads)
 {
   if (threads <= 0)
@@ -64,12 +80,17 @@ void ThreadPool::parallelFor(int begin, int end, int grain, const std::function<
     next_chunk_ = 0;
     chunk_count_ = (end - begin + grain_ - 1) / grain_;
     failure_ = nullptr;
+    if (chunk_count_ > 1)
+    {
+      ++calls_;
+    }
   }
   if (chunk_count_ > 1)
   {
     work_ready_.notify_all();
   }
   runChunks();
+  yieldUntil([this] { return chunks_running_ == 0; });
   std::unique_lock<std::mutex> lock(mutex_);
   work_done_.wait(lock, [this] { return chunks_running_ == 0 && next_chunk_ >= chunk_count_; });
   body_ = nullptr;
@@ -83,8 +104,9 @@ void ThreadPool::parallelFor(int begin, int end, int grain, const std::function<
 
 void ThreadPool::workerLoop()
 {
-  for (;;)
+  for (unsigned seen = 0;;)
   {
+    yieldUntil([&] { return calls_ != seen; });
     {
       std::unique_lock<std::mutex> lock(mutex_);
       work_ready_.wait(lock,
@@ -93,6 +115,7 @@ void ThreadPool::workerLoop()
       {
         return;
       }
+      seen = calls_;
     }
     runChunks();
   }

@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_CORE_THREAD_POOL_H
 #define LIGHT_FIELD_DEPTH_CORE_THREAD_POOL_H
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -58,7 +59,8 @@ private:
   int grain_ = 1;
   int next_chunk_ = 0;
   int chunk_count_ = 0;
-  int chunks_running_ = 0;
+  std::atomic<int> chunks_running_{0};  // changed with mutex_ held
+  std::atomic<unsigned> calls_{0};      // that the workers were told of, likewise
   std::exception_ptr failure_;
   bool stopping_ = false;
 };
