@@ -214,11 +214,14 @@ PipelineResult Pipeline::run(const LightField& light_field, const PipelineOption
   estimate_request.views = options.views;
   estimate_request.view_disparities = request.dense_cloud && calibrated;
 
+  // The clouds and the estimate see the same bytes: those of 16 bits are converted once.
+  const bool colours = calibrated && (request.organized_cloud || request.dense_cloud);
+  const LightField shown = colours ? toEightBit(light_field) : light_field;
   PipelineResult result;
-  result.estimate = estimatorFor(options).estimate(light_field, estimate_request, context);
+  result.estimate = estimatorFor(options).estimate(shown, estimate_request, context);
   if (calibrated)
   {
-    unproject(light_field, options, request, context, result);
+    unproject(shown, options, request, context, result);
   }
   result.stage_times = std::move(context.stage_times);
   result.total_ms =
