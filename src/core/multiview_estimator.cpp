@@ -41,6 +41,9 @@ constexpr int LEAST_HALVED_SIDE_PX = 32;
 /// Of half the resolution: smaller views are not halved again to measure the scene.
 constexpr int LEAST_QUARTERED_SIDE_PX = 96;
 constexpr int FAST_VIEWS_PER_ARM = 3;
+/// So few views are measured at half the resolution in no time. They stand far apart more often than others,
+/// and a range that is wider than it has to be lets repeated patterns match a period too far.
+constexpr std::size_t SWIFTLY_MEASURED_VIEWS = 9;
 /// The searches for exposure and range halve larger views at least once, each for itself.
 constexpr int LEAST_LONGER_SIDE_MEASURED_HALVED_PX = 384;
 constexpr int LEAST_SHORTER_SIDE_MEASURED_HALVED_PX = 64;
@@ -258,13 +261,14 @@ LightField MultiviewEstimator::measure(const LightField& views, const EstimateRe
 }
 
 /// The same from views of a quarter of the resolution, and without a search for small differences in
-/// exposure.
+/// exposure, where there are many views.
 /// @param views of half the resolution
 LightField MultiviewEstimator::measureQuickly(const LightField& views, const EstimateRequest& request,
                                               RunContext& context, SceneMeasures& measures)
 {
   const cv::Size size = views.size();
-  if (std::min(size.width, size.height) < LEAST_QUARTERED_SIDE_PX)
+  if (std::min(size.width, size.height) < LEAST_QUARTERED_SIDE_PX ||
+      views.views.size() <= SWIFTLY_MEASURED_VIEWS)
   {
     return measure(views, request, context, measures);
   }

@@ -284,6 +284,30 @@ TEST(MultiviewEstimator, SolvesLargeDisparitiesOfASparseArray)
   EXPECT_LT(testing::badPercentage(result.disparity, input.truth, 0.3, 12), 4.0);
 }
 
+TEST(MultiviewEstimator, FindsTheRangeOfFewViewsWithEveryPreset)
+{
+  SceneSettings settings;
+  settings.size = {288, 224};
+  settings.positions = testing::gridPositions(3, 3);
+  const std::vector<Surface> scene = {
+      testing::plane(5.0, 0.0, 0.0, testing::noiseTexture(4, 20.0)),
+      testing::rectangle(5.0, {200, 0, 88, 224}, testing::stripeTexture(8.0, true)),
+      testing::rectangle(10.0, {60, 50, 80, 90}, testing::noiseTexture(5, 14.0, {150, 110, 90})),
+  };
+  const auto input = testing::renderScene(scene, settings);
+  for (const auto preset : {MultiviewPreset::Balanced, MultiviewPreset::Realtime, MultiviewPreset::Fast})
+  {
+    ThreadPool pool(2);
+    RunContext context(pool);
+    MultiviewOptions options;
+    options.preset = preset;
+    const auto result = MultiviewEstimator(options).estimate(input.light_field, {}, context);
+    EXPECT_GT(result.range.min, 2.0F) << toString(preset);
+    EXPECT_LT(result.range.max, 13.0F) << toString(preset);
+    EXPECT_LT(testing::badPercentage(result.disparity, input.truth, 1.0, 12), 6.0) << toString(preset);
+  }
+}
+
 TEST(MultiviewEstimator, NamesOptionsThatCannotBeUsed)
 {
   MultiviewOptions options;
