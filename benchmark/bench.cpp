@@ -1,8 +1,10 @@
 // Time and accuracy of the package, each measurement with one command.
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <iostream>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
@@ -29,8 +31,12 @@ struct Measurement
   void (*run)(const Settings&);
 };
 
-/// The first one is taken when none is named.
+/// Taken when none is named.
+constexpr const char* DEFAULT_FLAG = "--light-fields";
+
+/// The memory comes first: what others leave behind in the process would count.
 constexpr std::array<Measurement, 9> MEASUREMENTS = {{
+    {"--memory", "the most memory that the process holds", measureMemory},
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
     {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
@@ -39,7 +45,6 @@ constexpr std::array<Measurement, 9> MEASUREMENTS = {{
     {"--captures", "light fields of real cameras, without truth", measureCaptures},
     {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
     {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
-    {"--memory", "the most memory that the process holds", measureMemory},
     {"--profile", "where the time of a frame goes, and what the machine could do in it", profileFrame},
     {"--video", "a moving light field, frame by frame and with the last frame's help", measureVideo},
 }};
@@ -73,18 +78,15 @@ int run(int argc, char** argv)
   CLI11_PARSE(app, argc, argv);
 
   cv::setNumThreads(settings.threads);
-  bool named = false;
+  const bool all = app.count("--all") > 0;
+  const auto is_named = [&](const Measurement& measurement) { return app.count(measurement.flag) > 0; };
+  const bool none = !all && std::none_of(MEASUREMENTS.begin(), MEASUREMENTS.end(), is_named);
   for (const Measurement& measurement : MEASUREMENTS)
   {
-    if (app.count("--all") > 0 || app.count(measurement.flag) > 0)
+    if (all || is_named(measurement) || (none && std::string(measurement.flag) == DEFAULT_FLAG))
     {
       measurement.run(settings);
-      named = true;
     }
-  }
-  if (!named)
-  {
-    MEASUREMENTS.front().run(settings);
   }
   return 0;
 }
