@@ -2,21 +2,25 @@
 # What the nodelet holds: the bundled light field, as a bag with 100 frames at a given rate, played to it once for each set
 # of results that somebody may listen to. Called by ./run bench --node, which has built the package and sourced its setup
 # file.
+# The node runs as depth.launch starts it, so with the help of the last frame.
 #   TOOLS   folder of the package's programs        RESULTS  folder for node.md and the JSON files
-# Arguments: --rate HZ (10), --frames N (100), --set NAME=VALUE of the node's parameters (any number).
+# Arguments: --rate HZ (10), --frames N (100), --temporal true|false (true), --set NAME=VALUE of the node's other parameters
+# (any number).
 set -euo pipefail
 
 TOP=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 RATE=10
 FRAMES=100
+TEMPORAL=true
 SETTINGS=()
 VOXEL_SIZE=0.0
 while [ $# -gt 0 ]; do
   case "$1" in
     --rate) RATE=$2 ;;
     --frames) FRAMES=$2 ;;
+    --temporal) TEMPORAL=$2 ;;
     --set) SETTINGS+=("$2") ;;
-    *) echo "bench --node: there is no argument '$1'; --rate, --frames and --set are there." >&2 && exit 2 ;;
+    *) echo "bench --node: there is no argument '$1'; --rate, --frames, --temporal and --set are there." >&2 && exit 2 ;;
   esac
   shift 2
 done
@@ -41,7 +45,7 @@ measure()
   for setting in "${SETTINGS[@]}"; do
     rosparam set "/light_field_depth/${setting%%=*}" "${setting#*=}"
   done
-  roslaunch light_field_depth depth.launch voxel_size:="$VOXEL_SIZE" >"$SCRATCH/node.log" 2>&1 &
+  roslaunch light_field_depth depth.launch voxel_size:="$VOXEL_SIZE" temporal:="$TEMPORAL" >"$SCRATCH/node.log" 2>&1 &
   launch=$!
   PIDS+=("$launch")
   "$TOOLS/stats_report" --label "$label" --output "$RESULTS/$file.json" --products "$@" >>"$SCRATCH/table.md" &

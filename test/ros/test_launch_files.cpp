@@ -66,4 +66,14 @@ TEST(LaunchFiles, StartAManagerOnlyWhenNoneIsNamed)
             std::string::npos);
 }
 
+TEST(LaunchFiles, AnArrayIsAStreamAndABagASeriesOfFrames)
+{
+  const std::string on = "/light_field_depth/multiview_temporal: true";
+  EXPECT_NE(run("roslaunch --dump-params launch/depth.launch").output.find(on), std::string::npos);
+  EXPECT_EQ(run("roslaunch --dump-params launch/depth.launch temporal:=false").output.find(on),
+            std::string::npos);
+  EXPECT_EQ(run("roslaunch --dump-params launch/replay.launch bag:=file.bag").output.find(on),
+            std::string::npos);
+}
+
 }  // namespace
