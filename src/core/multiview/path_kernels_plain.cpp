@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "light_field_depth/core/multiview/path_kernels.h"
@@ -58,7 +59,7 @@ void stepRowPlain(const StepRow& row)
       change += std::abs(static_cast<int>(row.here[i]) - static_cast<int>(row.neighbour[i]));
     }
     const float step = row.large_step / (1.0F + static_cast<float>(channel_weight * change));
-    row.steps[x] = static_cast<std::uint16_t>(std::max(row.least_step, step) + 0.5F);
+    row.steps[x] = static_cast<std::uint16_t>(std::lround(std::max(row.least_step, step)));
   }
 }
 
