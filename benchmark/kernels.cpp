@@ -231,7 +231,6 @@ struct LinearizeData
       (i / 4 % 2 == 0 ? views[i].step_x : views[i].step_y) = views[i].position;
     }
     tile.views = views.data();
-    tile.view_count = static_cast<int>(VIEWS);
     tile.spokes = spokes.data();
     tile.spoke_count = static_cast<int>(SPOKES);
     tile.width = WIDTH;

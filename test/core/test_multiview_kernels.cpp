@@ -284,7 +284,6 @@ public:
     std::vector<float> moments(spokes.size() * SPOKE_MOMENTS * TILED_STRIDE);
     LinearizeTile tile;
     tile.views = views_.data();
-    tile.view_count = static_cast<int>(views_.size());
     tile.spokes = spokes.data();
     tile.spoke_count = static_cast<int>(spokes.size());
     tile.width = WIDTH;

@@ -72,7 +72,6 @@ HWY_INLINE WordVector toWords(const FloatPair& values)
                         hn::BitCast(words, hn::ConvertTo(i, values.low)));
 }
 
-template <int CHANNELS>
 HWY_INLINE Samples black()
 {
   const auto zero = hn::Zero(Words());
@@ -165,7 +164,7 @@ template <int CHANNELS, typename Tap>
 HWY_INLINE Samples sumTaps(const Axis& axis, const Tap& tap)
 {
   const Words words;
-  Samples sum = black<CHANNELS>();
+  Samples sum = black();
   if (axis.span == 0)
   {
     addWeighted<CHANNELS>(axis.weight0, tap(0), sum);

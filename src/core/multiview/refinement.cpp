@@ -130,7 +130,6 @@ private:
               scratch_.disparity[static_cast<std::size_t>(width_) - 1]);
     LinearizeTile tile;
     tile.views = spokes_.views.data();
-    tile.view_count = static_cast<int>(spokes_.views.size());
     tile.spokes = spokes_.spokes.data();
     tile.spoke_count = static_cast<int>(spokes_.spokes.size());
     tile.width = width_;

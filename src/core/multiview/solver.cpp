@@ -83,7 +83,7 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
   labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
   paths_ = settings.paths;
   const float small_step = static_cast<float>(paths_.small_step) * labels_.step_px / UNIT_LABEL_STEP_PX;
-  paths_.small_step = cvRound(std::min(small_step, static_cast<float>(LARGEST_STEP)));
+  paths_.small_step = cvRound(small_step);
   ViewSetSettings view_settings;
   view_settings.grey = settings.grey_search;
   view_settings.blur_sigma_px = settings.blur_sigma_px;

@@ -49,7 +49,6 @@ struct Spoke
 struct LinearizeTile
 {
   const SampledView* views = nullptr;
-  int view_count = 0;
   const Spoke* spokes = nullptr;  ///< together all views, in their order
   int spoke_count = 0;
   int width = 0;  ///< of every view
