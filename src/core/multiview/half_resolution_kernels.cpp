@@ -60,33 +60,45 @@ HWY_INLINE hn::Vec<Words> share(hn::Vec<Bytes> upper, hn::Vec<Bytes> lower, std:
   return hn::MulHigh(hn::ShiftLeft<SUM_SHIFT>(sum), hn::Set(words, weight));
 }
 
-HWY_INLINE void storeBytes(hn::Vec<Words> values, std::uint8_t* half)
+HWY_INLINE hn::Vec<HalfBytes> toBytes(hn::Vec<Words> values)
 {
   const hn::RebindToSigned<Words> to_signed;
-  const HalfBytes bytes;
-  hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(to_signed, values)), bytes, half);
+  return hn::DemoteTo(HalfBytes(), hn::BitCast(to_signed, values));
+}
+
+/// The rounded means of 2 x 2 bytes.
+HWY_INLINE hn::Vec<HalfBytes> means(hn::Vec<Bytes> upper, hn::Vec<Bytes> lower)
+{
+  const auto sum = hn::Add(hn::Add(pairSums(upper), pairSums(lower)), hn::Set(Words(), 2));
+  return toBytes(hn::ShiftRight<2>(sum));
+}
+
+struct Channels
+{
+  hn::Vec<Bytes> c0, c1, c2;
+};
+
+HWY_INLINE Channels loadChannels(const std::uint8_t* pixels)
+{
+  Channels channels;
+  hn::LoadInterleaved3(Bytes(), pixels, channels.c0, channels.c1, channels.c2);
+  return channels;
 }
 
 int halveColour(const std::uint8_t* upper, const std::uint8_t* lower, int width, std::uint8_t* half)
 {
-  const Bytes bytes;
+  const HalfBytes half_bytes;
   const Words words;
   const int lanes = static_cast<int>(hn::Lanes(words));
   const auto rounding = hn::Set(words, 1U << (FRACTION_SHIFT - 1));
   int x = 0;
   for (; x + lanes <= width; x += lanes)
   {
-    hn::Vec<Bytes> a0;
-    hn::Vec<Bytes> a1;
-    hn::Vec<Bytes> a2;
-    hn::Vec<Bytes> b0;
-    hn::Vec<Bytes> b1;
-    hn::Vec<Bytes> b2;
-    hn::LoadInterleaved3(bytes, upper + static_cast<std::ptrdiff_t>(x) * 6, a0, a1, a2);
-    hn::LoadInterleaved3(bytes, lower + static_cast<std::ptrdiff_t>(x) * 6, b0, b1, b2);
-    const auto sum =
-        hn::Add(hn::Add(share(a0, b0, BLUE_SHARE), share(a1, b1, GREEN_SHARE)), share(a2, b2, RED_SHARE));
-    storeBytes(hn::ShiftRight<FRACTION_SHIFT>(hn::Add(sum, rounding)), half + x);
+    const Channels a = loadChannels(upper + static_cast<std::ptrdiff_t>(x) * 6);
+    const Channels b = loadChannels(lower + static_cast<std::ptrdiff_t>(x) * 6);
+    const auto sum = hn::Add(hn::Add(share(a.c0, b.c0, BLUE_SHARE), share(a.c1, b.c1, GREEN_SHARE)),
+                             share(a.c2, b.c2, RED_SHARE));
+    hn::StoreU(toBytes(hn::ShiftRight<FRACTION_SHIFT>(hn::Add(sum, rounding))), half_bytes, half + x);
   }
   return x;
 }
@@ -94,14 +106,14 @@ int halveColour(const std::uint8_t* upper, const std::uint8_t* lower, int width,
 int halveGrey(const std::uint8_t* upper, const std::uint8_t* lower, int width, std::uint8_t* half)
 {
   const Bytes bytes;
-  const Words words;
-  const int lanes = static_cast<int>(hn::Lanes(words));
+  const HalfBytes half_bytes;
+  const int lanes = static_cast<int>(hn::Lanes(half_bytes));
   int x = 0;
   for (; x + lanes <= width; x += lanes)
   {
-    const auto sum = hn::Add(pairSums(hn::LoadU(bytes, upper + static_cast<std::ptrdiff_t>(x) * 2)),
-                             pairSums(hn::LoadU(bytes, lower + static_cast<std::ptrdiff_t>(x) * 2)));
-    storeBytes(hn::ShiftRight<2>(hn::Add(sum, hn::Set(words, 2))), half + x);
+    const auto a = hn::LoadU(bytes, upper + static_cast<std::ptrdiff_t>(x) * 2);
+    const auto b = hn::LoadU(bytes, lower + static_cast<std::ptrdiff_t>(x) * 2);
+    hn::StoreU(means(a, b), half_bytes, half + x);
   }
   return x;
 }
@@ -118,28 +130,14 @@ void halveRowSimd(const std::uint8_t* upper, const std::uint8_t* lower, int chan
 /// Of each channel by itself.
 int halveThreeChannels(const std::uint8_t* upper, const std::uint8_t* lower, int width, std::uint8_t* half)
 {
-  const Bytes bytes;
   const HalfBytes half_bytes;
-  const Words words;
-  const hn::RebindToSigned<Words> to_signed;
-  const int lanes = static_cast<int>(hn::Lanes(words));
-  const auto mean = [=](hn::Vec<Bytes> a, hn::Vec<Bytes> b) HWY_ATTR
-  {
-    const auto sum = hn::Add(hn::Add(pairSums(a), pairSums(b)), hn::Set(words, 2));
-    return hn::DemoteTo(half_bytes, hn::BitCast(to_signed, hn::ShiftRight<2>(sum)));
-  };
+  const int lanes = static_cast<int>(hn::Lanes(half_bytes));
   int x = 0;
   for (; x + lanes <= width; x += lanes)
   {
-    hn::Vec<Bytes> a0;
-    hn::Vec<Bytes> a1;
-    hn::Vec<Bytes> a2;
-    hn::Vec<Bytes> b0;
-    hn::Vec<Bytes> b1;
-    hn::Vec<Bytes> b2;
-    hn::LoadInterleaved3(bytes, upper + static_cast<std::ptrdiff_t>(x) * 6, a0, a1, a2);
-    hn::LoadInterleaved3(bytes, lower + static_cast<std::ptrdiff_t>(x) * 6, b0, b1, b2);
-    hn::StoreInterleaved3(mean(a0, b0), mean(a1, b1), mean(a2, b2), half_bytes,
+    const Channels a = loadChannels(upper + static_cast<std::ptrdiff_t>(x) * 6);
+    const Channels b = loadChannels(lower + static_cast<std::ptrdiff_t>(x) * 6);
+    hn::StoreInterleaved3(means(a.c0, b.c0), means(a.c1, b.c1), means(a.c2, b.c2), half_bytes,
                           half + static_cast<std::ptrdiff_t>(x) * 3);
   }
   return x;
@@ -174,6 +172,11 @@ void halveRow(const std::uint8_t* upper, const std::uint8_t* lower, int channels
 void halveRowPlain(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
                    std::uint8_t* half)
 {
+  if (channels == 1)
+  {
+    halveChannelsRowPlain(upper, lower, channels, width, half);
+    return;
+  }
   const auto sum_at = [&](int x, int channel)
   {
     const std::ptrdiff_t left = static_cast<std::ptrdiff_t>(x) * 2 * channels + channel;
@@ -182,11 +185,6 @@ void halveRowPlain(const std::uint8_t* upper, const std::uint8_t* lower, int cha
   };
   for (int x = 0; x < width; ++x)
   {
-    if (channels == 1)
-    {
-      half[x] = static_cast<std::uint8_t>((sum_at(x, 0) + 2U) >> 2U);
-      continue;
-    }
     const auto share = [&](int channel, std::uint32_t weight)
     { return ((sum_at(x, channel) << SUM_SHIFT) * weight) >> 16U; };
     const std::uint32_t sum = share(0, BLUE_SHARE) + share(1, GREEN_SHARE) + share(2, RED_SHARE);
