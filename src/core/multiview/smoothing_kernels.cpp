@@ -169,6 +169,31 @@ HWY_INLINE void prefetchSystem(const SystemRow& row, int first)
   }
 }
 
+/// What the images say of some unknowns of a row, and their links.
+template <class D>
+struct Equation
+{
+  hn::Vec<D> left, right, up, down;
+  hn::Vec<D> diagonal;
+  hn::Vec<D> own;  ///< of the right side, without the neighbours
+};
+
+/// @param row a SystemRow or a ColumnStep
+template <class D, class Row>
+HWY_INLINE Equation<D> equationAt(D f, const Row& row, int x)
+{
+  Equation<D> equation;
+  const auto data = hn::Add(hn::LoadU(f, row.weight + x), hn::Set(f, TINY_WEIGHT));
+  equation.left = hn::LoadU(f, row.left + x);
+  equation.right = hn::LoadU(f, row.left + x + 1);
+  equation.up = hn::LoadU(f, row.up + x);
+  equation.down = hn::LoadU(f, row.down + x);
+  const auto across = hn::Add(hn::Add(data, equation.left), equation.right);
+  equation.diagonal = hn::Add(hn::Add(across, equation.up), equation.down);
+  equation.own = hn::Mul(data, hn::LoadU(f, row.target + x));
+  return equation;
+}
+
 /// What the row and its neighbours above and below say about the unknowns first .. last - 1.
 HWY_INLINE void setSystem(const SystemRow& row, int first, int last, float* left, float* diagonal,
                           float* side)
@@ -176,18 +201,12 @@ HWY_INLINE void setSystem(const SystemRow& row, int first, int last, float* left
   forPixels(first, last,
             [&](auto f, int x)
             {
-              const auto data = hn::Add(hn::LoadU(f, row.weight + x), hn::Set(f, TINY_WEIGHT));
-              const auto left_link = hn::LoadU(f, row.left + x);
-              const auto right_link = hn::LoadU(f, row.left + x + 1);
-              const auto up = hn::LoadU(f, row.up + x);
-              const auto down = hn::LoadU(f, row.down + x);
-              const auto links = hn::Add(hn::Add(hn::Add(hn::Add(data, left_link), right_link), up), down);
-              const auto own = hn::Mul(data, hn::LoadU(f, row.target + x));
-              const auto from_above = hn::Mul(up, hn::LoadU(f, row.above + x));
-              const auto from_below = hn::Mul(down, hn::LoadU(f, row.below + x));
-              hn::StoreU(left_link, f, left + x - first);
-              hn::StoreU(links, f, diagonal + x - first);
-              hn::StoreU(hn::Add(hn::Add(own, from_above), from_below), f, side + x - first);
+              const auto equation = equationAt(f, row, x);
+              const auto from_above = hn::Mul(equation.up, hn::LoadU(f, row.above + x));
+              const auto from_below = hn::Mul(equation.down, hn::LoadU(f, row.below + x));
+              hn::StoreU(equation.left, f, left + x - first);
+              hn::StoreU(equation.diagonal, f, diagonal + x - first);
+              hn::StoreU(hn::Add(hn::Add(equation.own, from_above), from_below), f, side + x - first);
             });
   left[last - first] = row.left[last];
 }
@@ -297,19 +316,14 @@ template <class D>
 HWY_INLINE void eliminateAt(D f, const ColumnStep& step, int x, hn::Vec<D> left_value, hn::Vec<D> right_value)
 {
   const int i = x - step.first;
-  const auto data = hn::Add(hn::LoadU(f, step.weight + x), hn::Set(f, TINY_WEIGHT));
-  const auto left = hn::LoadU(f, step.left + x);
-  const auto right = hn::LoadU(f, step.left + x + 1);
-  const auto up = hn::LoadU(f, step.up + x);
-  const auto down = hn::LoadU(f, step.down + x);
-  const auto diagonal = hn::Add(hn::Add(hn::Add(hn::Add(data, left), right), up), down);
-  const auto own = hn::Mul(data, hn::LoadU(f, step.target + x));
-  const auto side = hn::Add(hn::Add(own, hn::Mul(left, left_value)), hn::Mul(right, right_value));
-  const auto eliminated = hn::Mul(up, hn::LoadU(f, step.factor_above + i));
-  const auto inverse = hn::Div(hn::Set(f, 1.0F), hn::Sub(diagonal, eliminated));
-  const auto above = hn::Mul(up, hn::LoadU(f, step.value_above + i));
+  const auto equation = equationAt(f, step, x);
+  const auto beside = hn::Add(equation.own, hn::Mul(equation.left, left_value));
+  const auto side = hn::Add(beside, hn::Mul(equation.right, right_value));
+  const auto eliminated = hn::Mul(equation.up, hn::LoadU(f, step.factor_above + i));
+  const auto inverse = hn::Div(hn::Set(f, 1.0F), hn::Sub(equation.diagonal, eliminated));
+  const auto above = hn::Mul(equation.up, hn::LoadU(f, step.value_above + i));
   hn::StoreU(hn::Mul(hn::Add(side, above), inverse), f, step.value + i);
-  hn::StoreU(hn::Mul(down, inverse), f, step.factor + i);
+  hn::StoreU(hn::Mul(equation.down, inverse), f, step.factor + i);
 }
 
 void eliminateColumnsLoop(const ColumnStep& step)
