@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/multiview/edge_aware_smoothing.h"
+#include "light_field_depth/core/multiview/pixel_kernels.h"
 #include "light_field_depth/core/multiview/smoothing_kernels.h"
 #include "support/instruction_sets.h"
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "light_field_depth/core/multiview/pixel_kernels.h"
 #include "light_field_depth/core/multiview/smoothing_kernels.h"
 
 namespace light_field_depth::multiview

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "light_field_depth/core/multiview/path_kernels.h"
+#include "light_field_depth/core/multiview/pixel_kernels.h"
 
 namespace light_field_depth::multiview
 {
@@ -76,26 +77,29 @@ void PathAggregator::setGuide(const PlanarImage& guide, const PathSettings& sett
   step_stride_ = padded(guide.width());
   step_left_.resize(step_stride_ * padded(guide.height()));
   step_above_.resize(step_left_.size());
-  StepRow row;
-  row.channel_stride = guide.channelStride();
-  row.channels = guide.channels();
-  row.width = guide.width();
-  row.large_step = static_cast<float>(settings.large_step);
-  row.least_step = settings.large_step_floor * static_cast<float>(settings.small_step);
+  StepRow steps;
+  steps.large_step = static_cast<float>(settings.large_step);
+  steps.least_step = settings.large_step_floor * static_cast<float>(settings.small_step);
+  steps.width = guide.width();
+  const auto setRow = [&](int y, StepRow row)
+  {
+    const std::size_t offset = static_cast<std::size_t>(y) * step_stride_;
+    std::uint16_t* const left = step_left_.data() + offset;
+    std::uint16_t* const above = step_above_.data() + offset;
+    colourChanges({guide.row(y), guide.row(y - 1), guide.channelStride(), guide.channels(), guide.width()},
+                  left, above);
+    for (std::uint16_t* const row_of_steps : {left, above})
+    {
+      row.steps = row_of_steps;
+      stepRow(row);
+    }
+  };
   pool.parallelFor(0, guide.height(), ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
-                     StepRow step = row;
                      for (int y = first; y < last; ++y)
                      {
-                       const std::size_t offset = static_cast<std::size_t>(y) * step_stride_;
-                       step.here = guide.row(y);
-                       step.neighbour = step.here - 1;
-                       step.steps = step_left_.data() + offset;
-                       stepRow(step);
-                       step.neighbour = guide.row(y - 1);
-                       step.steps = step_above_.data() + offset;
-                       stepRow(step);
+                       setRow(y, steps);
                      }
                    });
 }

@@ -47,14 +47,6 @@ using Words = hn::CappedTag<std::uint16_t, TILE_PX>;
 using WordBytes = hn::Rebind<std::uint8_t, Words>;
 using Vector = hn::Vec<Words>;
 
-HWY_INLINE Vector changeOfChannel(const std::uint8_t* here, const std::uint8_t* neighbour)
-{
-  const WordBytes bytes;
-  const auto a = hn::LoadU(bytes, here);
-  const auto b = hn::LoadU(bytes, neighbour);
-  return hn::PromoteTo(Words(), hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)));
-}
-
 void stepRowSimd(const StepRow& row)
 {
   const Words words;
@@ -71,19 +63,7 @@ void stepRowSimd(const StepRow& row)
   };
   for (int x = 0; x < row.width; x += static_cast<int>(hn::Lanes(words)))
   {
-    const std::uint8_t* const here = row.here + x;
-    const std::uint8_t* const neighbour = row.neighbour + x;
-    const std::size_t stride = row.channel_stride;
-    auto change = changeOfChannel(here, neighbour);
-    if (row.channels == 3)
-    {
-      change = hn::Add(change, changeOfChannel(here + stride, neighbour + stride));
-      change = hn::Add(change, changeOfChannel(here + 2 * stride, neighbour + 2 * stride));
-    }
-    else
-    {
-      change = hn::Add(change, hn::Add(change, change));
-    }
+    const auto change = hn::LoadU(words, row.steps + x);
     hn::StoreU(hn::Combine(words, steps(hn::UpperHalf(half_words, change)),
                            steps(hn::LowerHalf(half_words, change))),
                words, row.steps + x);

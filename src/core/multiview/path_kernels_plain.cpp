@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "light_field_depth/core/multiview/path_kernels.h"
 
@@ -49,16 +48,9 @@ void transposePlain(const Value* source, int labels, Value* target)
 
 void stepRowPlain(const StepRow& row)
 {
-  const int channel_weight = row.channels == 1 ? 3 : 1;
-  for (std::size_t x = 0; x < static_cast<std::size_t>(row.width); ++x)
+  for (int x = 0; x < row.width; ++x)
   {
-    int change = 0;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(row.channels); ++c)
-    {
-      const std::size_t i = c * row.channel_stride + x;
-      change += std::abs(static_cast<int>(row.here[i]) - static_cast<int>(row.neighbour[i]));
-    }
-    const float step = row.large_step / (1.0F + static_cast<float>(channel_weight * change));
+    const float step = row.large_step / (1.0F + static_cast<float>(row.steps[x]));
     row.steps[x] = static_cast<std::uint16_t>(std::lround(std::max(row.least_step, step)));
   }
 }

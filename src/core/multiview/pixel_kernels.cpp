@@ -41,6 +41,36 @@ void splitPixelsLoop(const PixelRow& row)
   splitPixelsPlain(rest);
 }
 
+HWY_INLINE int changeOf(int a, int b)
+{
+  return a < b ? b - a : a - b;
+}
+
+void colourChangesLoop(const ColourChangeRow& row, std::uint16_t* HWY_RESTRICT from_left,
+                       std::uint16_t* HWY_RESTRICT from_above)
+{
+  const std::size_t second = row.channels == 1 ? 0 : row.channel_stride;
+  const std::uint8_t* HWY_RESTRICT here = row.pixels;
+  const std::uint8_t* HWY_RESTRICT above = row.above;
+  const int width = row.width;
+  for (int x = 0; x < width; ++x)
+  {
+    const std::uint8_t* const one = here + x;
+    const std::uint8_t* const two = one + second;
+    const std::uint8_t* const three = two + second;
+    from_left[x] = static_cast<std::uint16_t>(changeOf(one[0], one[-1]) + changeOf(two[0], two[-1]) +
+                                              changeOf(three[0], three[-1]));
+  }
+  for (int x = 0; x < width; ++x)
+  {
+    const std::uint8_t* const one = here + x;
+    const std::uint8_t* const other = above + x;
+    from_above[x] =
+        static_cast<std::uint16_t>(changeOf(one[0], other[0]) + changeOf(one[second], other[second]) +
+                                   changeOf(one[2 * second], other[2 * second]));
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace light_field_depth::multiview
 HWY_AFTER_NAMESPACE();
@@ -49,10 +79,27 @@ HWY_AFTER_NAMESPACE();
 namespace light_field_depth::multiview
 {
 HWY_EXPORT(splitPixelsLoop);
+HWY_EXPORT(colourChangesLoop);
 
 void splitPixels(const PixelRow& row)
 {
   HWY_DYNAMIC_DISPATCH(splitPixelsLoop)(row);
+}
+
+void colourChanges(const ColourChangeRow& row, std::uint16_t* from_left, std::uint16_t* from_above)
+{
+  HWY_DYNAMIC_DISPATCH(colourChangesLoop)(row, from_left, from_above);
+}
+
+void colourChangesPlain(const ColourChangeRow& row, std::uint16_t* from_left, std::uint16_t* from_above)
+{
+  const auto change = [&](const std::uint8_t* a, const std::uint8_t* b)
+  { return static_cast<std::uint16_t>(colourDifference(a, b, row.channel_stride, row.channels)); };
+  for (int x = 0; x < row.width; ++x)
+  {
+    from_left[x] = change(row.pixels + x - 1, row.pixels + x);
+    from_above[x] = change(row.above + x, row.pixels + x);
+  }
 }
 
 void splitPixelsPlain(const PixelRow& row)

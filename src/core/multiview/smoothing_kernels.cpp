@@ -18,36 +18,6 @@ namespace light_field_depth::multiview
 namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
-HWY_INLINE int changeOf(int a, int b)
-{
-  return a < b ? b - a : a - b;
-}
-
-void colourChangesLoop(const ColourChangeRow& row, std::uint16_t* HWY_RESTRICT from_left,
-                       std::uint16_t* HWY_RESTRICT from_above)
-{
-  const std::size_t second = row.channels == 1 ? 0 : row.channel_stride;
-  const std::uint8_t* HWY_RESTRICT here = row.pixels;
-  const std::uint8_t* HWY_RESTRICT above = row.above;
-  const int width = row.width;
-  for (int x = 0; x < width; ++x)
-  {
-    const std::uint8_t* const one = here + x;
-    const std::uint8_t* const two = one + second;
-    const std::uint8_t* const three = two + second;
-    from_left[x] = static_cast<std::uint16_t>(changeOf(one[0], one[-1]) + changeOf(two[0], two[-1]) +
-                                              changeOf(three[0], three[-1]));
-  }
-  for (int x = 0; x < width; ++x)
-  {
-    const std::uint8_t* const one = here + x;
-    const std::uint8_t* const other = above + x;
-    from_above[x] =
-        static_cast<std::uint16_t>(changeOf(one[0], other[0]) + changeOf(one[second], other[second]) +
-                                   changeOf(one[2 * second], other[2 * second]));
-  }
-}
-
 void linkRowLoop(const LinkRow& row)
 {
   const auto robust = [&](auto f, auto guide, auto change)
@@ -365,16 +335,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(colourChangesLoop);
 HWY_EXPORT(linkRowLoop);
 HWY_EXPORT(solveRowsLoop);
 HWY_EXPORT(eliminateColumnsLoop);
 HWY_EXPORT(substituteColumnsLoop);
-
-void colourChanges(const ColourChangeRow& row, std::uint16_t* from_left, std::uint16_t* from_above)
-{
-  HWY_DYNAMIC_DISPATCH(colourChangesLoop)(row, from_left, from_above);
-}
 
 void linkRow(const LinkRow& row)
 {

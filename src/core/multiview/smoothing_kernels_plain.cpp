@@ -7,17 +7,6 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-std::uint16_t colourChange(const ColourChangeRow& row, const std::uint8_t* a, const std::uint8_t* b)
-{
-  int sum = 0;
-  for (int channel = 0; channel < row.channels; ++channel)
-  {
-    const std::size_t offset = static_cast<std::size_t>(channel) * row.channel_stride;
-    sum += std::abs(static_cast<int>(a[offset]) - static_cast<int>(b[offset]));
-  }
-  return static_cast<std::uint16_t>(row.channels == 1 ? 3 * sum : sum);
-}
-
 float robustLink(float guide, float change, float flat)
 {
   return guide * (flat / std::sqrt(change * change + flat * flat));
@@ -51,15 +40,6 @@ Unknown unknownOfRow(const SystemRow& row, int x)
 }
 
 }  // namespace
-
-void colourChangesPlain(const ColourChangeRow& row, std::uint16_t* from_left, std::uint16_t* from_above)
-{
-  for (int x = 0; x < row.width; ++x)
-  {
-    from_left[x] = colourChange(row, row.pixels + x - 1, row.pixels + x);
-    from_above[x] = colourChange(row, row.above + x, row.pixels + x);
-  }
-}
 
 void linkRowPlain(const LinkRow& row)
 {

@@ -16,21 +16,17 @@ namespace light_field_depth::multiview
 /// A state that is never chosen.
 constexpr std::uint16_t NO_STATE = 0xFFFF;
 
-/// P2 of the steps between the pixels of two rows of a guide.
+/// P2 of the steps along a row of a guide.
 struct StepRow
 {
-  const std::uint8_t* here = nullptr;       ///< channels one plane apart
-  const std::uint8_t* neighbour = nullptr;  ///< likewise
-  std::size_t channel_stride = 0;
-  int channels = 3;
-  int width = 0;  ///< up to TILE_PX - 1 pixels more are read, and steps written
   float large_step = 0.0F;
   float least_step = 0.0F;
+  int width = 0;  ///< up to TILE_PX - 1 more are read and written
+  /// The changes of colour (pixel_kernels.h) on entry, P2 on return.
   std::uint16_t* steps = nullptr;
 };
 
-/// max(least_step, large_step / (1 + d)), to the nearest; d sums up the change of three channels, a grey one
-/// counts three times.
+/// max(least_step, large_step / (1 + change)), to the nearest.
 void stepRow(const StepRow& row);
 void stepRowPlain(const StepRow& row);
 

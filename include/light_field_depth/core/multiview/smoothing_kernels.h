@@ -15,20 +15,6 @@ constexpr float TINY_WEIGHT = 1e-3F;
 /// Rows that are solved side by side, a multiple of every vector.
 constexpr int ROWS_AT_ONCE = 32;
 
-/// The changes of colour of a row from the pixels beside and above it.
-struct ColourChangeRow
-{
-  const std::uint8_t* pixels = nullptr;  ///< readable one pixel before its beginning
-  const std::uint8_t* above = nullptr;   ///< the row above, the same row in the first one
-  std::size_t channel_stride = 0;
-  int channels = 3;  ///< 3, or 1 that counts three times
-  int width = 0;
-};
-
-/// Sums of the absolute differences over the channels, [width] each.
-void colourChanges(const ColourChangeRow& row, std::uint16_t* from_left, std::uint16_t* from_above);
-void colourChangesPlain(const ColourChangeRow& row, std::uint16_t* from_left, std::uint16_t* from_above);
-
 /// The links of a row of the disparity: link = guide * flat / sqrt(change^2 + flat^2).
 struct LinkRow
 {

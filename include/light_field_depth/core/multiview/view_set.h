@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/multiview/pixel_kernels.h"
 #include "light_field_depth/core/thread_pool.h"
 
 namespace light_field_depth::multiview
@@ -54,14 +54,7 @@ constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
 /// COLOUR_DIFFERENCES - 1; a grey image counts three times.
 inline std::size_t colourDifference(const PlanarImage& image, const std::uint8_t* a, const std::uint8_t* b)
 {
-  const int channels = image.channels();
-  int sum = 0;
-  for (int channel = 0; channel < channels; ++channel)
-  {
-    const std::size_t offset = static_cast<std::size_t>(channel) * image.channelStride();
-    sum += std::abs(static_cast<int>(a[offset]) - static_cast<int>(b[offset]));
-  }
-  return static_cast<std::size_t>(channels == 1 ? 3 * sum : sum);
+  return static_cast<std::size_t>(colourDifference(a, b, image.channelStride(), image.channels()));
 }
 
 /// The views that stand in one direction from the reference, as a range of ViewSet::views. What hides a
