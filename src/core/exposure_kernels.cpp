@@ -4,8 +4,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "cover-inl.h"
 #include "exposure_kernels.h"
+#include "vector_loops-inl.h"
 
 #ifndef LIGHT_FIELD_DEPTH_CORE_EXPOSURE_KERNELS_BORDER
 #define LIGHT_FIELD_DEPTH_CORE_EXPOSURE_KERNELS_BORDER
@@ -65,16 +65,16 @@ void smoothRowSimd(const RowsAbout<std::uint8_t, 5>& rows, int width, int channe
 {
   std::uint16_t* const columns = memory + ROW_BORDER_PX * channels;
   const int count = width * channels;
-  cover<std::uint16_t>(
-      count,
+  forElements<std::uint16_t>(
+      0, count,
       [&](auto words, int x) HWY_ATTR
       {
         const auto at = [&](std::size_t row) HWY_ATTR { return loadBytes(words, rows[row] + x); };
         hn::StoreU(weigh(words, hn::Add(at(0), at(4)), hn::Add(at(1), at(3)), at(2)), words, columns + x);
       });
   mirrorEnds(columns, width, channels, 2);
-  cover<std::uint16_t>(
-      count,
+  forElements<std::uint16_t>(
+      0, count,
       [&](auto words, int x) HWY_ATTR
       {
         const auto at = [&](int column) HWY_ATTR
@@ -90,26 +90,26 @@ void cutOffRowSimd(const RowsAbout<std::uint8_t, 3>& rows, int width, int channe
   auto* const columns = reinterpret_cast<std::uint8_t*>(memory) + ROW_BORDER_PX * channels;
   const int count = width * channels;
   // Not 0 where a value of the column is out of bounds.
-  cover<std::uint8_t>(count,
-                      [&](auto bytes, int x) HWY_ATTR
-                      {
-                        const auto a = hn::LoadU(bytes, rows[0] + x);
-                        const auto b = hn::LoadU(bytes, rows[1] + x);
-                        const auto c = hn::LoadU(bytes, rows[2] + x);
-                        const auto least = hn::Min(hn::Min(a, b), c);
-                        const auto most = hn::Max(hn::Max(a, b), c);
-                        const auto below = hn::SaturatedSub(hn::Set(bytes, darkest), least);
-                        const auto above = hn::SaturatedSub(most, hn::Set(bytes, brightest));
-                        hn::StoreU(hn::Or(below, above), bytes, columns + x);
-                      });
+  forElements<std::uint8_t>(0, count,
+                            [&](auto bytes, int x) HWY_ATTR
+                            {
+                              const auto a = hn::LoadU(bytes, rows[0] + x);
+                              const auto b = hn::LoadU(bytes, rows[1] + x);
+                              const auto c = hn::LoadU(bytes, rows[2] + x);
+                              const auto least = hn::Min(hn::Min(a, b), c);
+                              const auto most = hn::Max(hn::Max(a, b), c);
+                              const auto below = hn::SaturatedSub(hn::Set(bytes, darkest), least);
+                              const auto above = hn::SaturatedSub(most, hn::Set(bytes, brightest));
+                              hn::StoreU(hn::Or(below, above), bytes, columns + x);
+                            });
   mirrorEnds(columns, width, channels, 1);
-  cover<std::uint8_t>(count,
-                      [&](auto bytes, int x) HWY_ATTR
-                      {
-                        const auto sides = hn::Or(hn::LoadU(bytes, columns + x - channels),
-                                                  hn::LoadU(bytes, columns + x + channels));
-                        hn::StoreU(hn::Or(hn::LoadU(bytes, columns + x), sides), bytes, cut_off + x);
-                      });
+  forElements<std::uint8_t>(0, count,
+                            [&](auto bytes, int x) HWY_ATTR
+                            {
+                              const auto sides = hn::Or(hn::LoadU(bytes, columns + x - channels),
+                                                        hn::LoadU(bytes, columns + x + channels));
+                              hn::StoreU(hn::Or(hn::LoadU(bytes, columns + x), sides), bytes, cut_off + x);
+                            });
 }
 
 /// The sum over nine neighbours.
@@ -130,58 +130,58 @@ void deviationRowSimd(const RowsAbout<std::uint8_t, 9>& rows, int width, std::ui
                       float* deviation)
 {
   std::uint16_t* const columns = memory + ROW_BORDER_PX;
-  cover<std::uint16_t>(width,
-                       [&](auto words, int x) HWY_ATTR
-                       {
-                         auto sum = loadBytes(words, rows[0] + x);
-                         for (std::size_t row = 1; row < rows.size(); ++row)
-                         {
-                           sum = hn::Add(sum, loadBytes(words, rows[row] + x));
-                         }
-                         hn::StoreU(sum, words, columns + x);
-                       });
+  forElements<std::uint16_t>(0, width,
+                             [&](auto words, int x) HWY_ATTR
+                             {
+                               auto sum = loadBytes(words, rows[0] + x);
+                               for (std::size_t row = 1; row < rows.size(); ++row)
+                               {
+                                 sum = hn::Add(sum, loadBytes(words, rows[row] + x));
+                               }
+                               hn::StoreU(sum, words, columns + x);
+                             });
   mirrorEnds(columns, width, 1, ROW_BORDER_PX);
-  cover<float>(width,
-               [&](auto floats, int x) HWY_ATTR
-               {
-                 const hn::Rebind<std::int32_t, decltype(floats)> integers;
-                 const hn::Rebind<std::uint16_t, decltype(floats)> words;
-                 const auto sum =
-                     hn::ConvertTo(floats, hn::PromoteTo(integers, sumAlongRow(words, columns + x)));
-                 const auto value = hn::ConvertTo(floats, loadBytes(integers, rows[rows.size() / 2] + x));
-                 const auto mean = hn::Mul(sum, hn::Set(floats, SHARE_OF_WINDOW));
-                 hn::StoreU(hn::Sub(value, mean), floats, deviation + x);
-               });
+  forElements<float>(
+      0, width,
+      [&](auto floats, int x) HWY_ATTR
+      {
+        const hn::Rebind<std::int32_t, decltype(floats)> integers;
+        const hn::Rebind<std::uint16_t, decltype(floats)> words;
+        const auto sum = hn::ConvertTo(floats, hn::PromoteTo(integers, sumAlongRow(words, columns + x)));
+        const auto value = hn::ConvertTo(floats, loadBytes(integers, rows[rows.size() / 2] + x));
+        const auto mean = hn::Mul(sum, hn::Set(floats, SHARE_OF_WINDOW));
+        hn::StoreU(hn::Sub(value, mean), floats, deviation + x);
+      });
 }
 
 void normalizeRowSimd(const RowsAbout<float, 9>& deviations, int width, const Normalization& normalization,
                       float* memory, std::uint8_t* normalized)
 {
   float* const columns = memory + ROW_BORDER_PX;
-  cover<float>(width,
-               [&](auto floats, int x) HWY_ATTR
-               {
-                 auto sum = hn::Zero(floats);
-                 for (const float* row : deviations)
-                 {
-                   const auto value = hn::LoadU(floats, row + x);
-                   sum = hn::Add(sum, hn::Mul(value, value));
-                 }
-                 hn::StoreU(sum, floats, columns + x);
-               });
+  forElements<float>(0, width,
+                     [&](auto floats, int x) HWY_ATTR
+                     {
+                       auto sum = hn::Zero(floats);
+                       for (const float* row : deviations)
+                       {
+                         const auto value = hn::LoadU(floats, row + x);
+                         sum = hn::Add(sum, hn::Mul(value, value));
+                       }
+                       hn::StoreU(sum, floats, columns + x);
+                     });
   mirrorEnds(columns, width, 1, ROW_BORDER_PX);
-  cover<float>(width,
-               [&](auto floats, int x) HWY_ATTR
-               {
-                 const hn::Rebind<std::uint8_t, decltype(floats)> bytes;
-                 const auto square =
-                     hn::Mul(sumAlongRow(floats, columns + x), hn::Set(floats, SHARE_OF_WINDOW));
-                 const auto contrast = hn::Add(hn::Sqrt(square), hn::Set(floats, normalization.least));
-                 const auto value = hn::LoadU(floats, deviations[deviations.size() / 2] + x);
-                 const auto scaled = hn::Div(hn::Mul(value, hn::Set(floats, normalization.scale)), contrast);
-                 const auto shifted = hn::Add(scaled, hn::Set(floats, normalization.middle));
-                 hn::StoreU(hn::DemoteTo(bytes, hn::NearestInt(shifted)), bytes, normalized + x);
-               });
+  forElements<float>(
+      0, width,
+      [&](auto floats, int x) HWY_ATTR
+      {
+        const hn::Rebind<std::uint8_t, decltype(floats)> bytes;
+        const auto square = hn::Mul(sumAlongRow(floats, columns + x), hn::Set(floats, SHARE_OF_WINDOW));
+        const auto contrast = hn::Add(hn::Sqrt(square), hn::Set(floats, normalization.least));
+        const auto value = hn::LoadU(floats, deviations[deviations.size() / 2] + x);
+        const auto scaled = hn::Div(hn::Mul(value, hn::Set(floats, normalization.scale)), contrast);
+        const auto shifted = hn::Add(scaled, hn::Set(floats, normalization.middle));
+        hn::StoreU(hn::DemoteTo(bytes, hn::NearestInt(shifted)), bytes, normalized + x);
+      });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "sweep_kernels.h"
+#include "vector_loops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace light_field_depth
@@ -14,41 +15,6 @@ namespace light_field_depth
 namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Rows are short, so that what whole vectors leave over counts: it is done in parts before single elements.
-template <class Element, std::size_t MOST_LANES>
-struct Steps
-{
-  using Whole = hn::CappedTag<Element, MOST_LANES>;
-  using Part = hn::CappedTag<Element, 8>;
-  using Single = hn::CappedTag<Element, 1>;
-};
-
-/// Runs body(tag, i) as long as whole vectors are left. @return the number of elements done
-template <class Tag, class Body>
-HWY_INLINE std::size_t forEachVector(Tag tag, std::size_t begin, std::size_t end, const Body& body)
-{
-  const std::size_t lanes = hn::Lanes(tag);
-  for (; begin + lanes <= end; begin += lanes)
-  {
-    body(tag, begin);
-  }
-  return begin;
-}
-
-template <class AllSteps, class Body>
-HWY_INLINE void forEach(std::size_t count, const Body& body)
-{
-  std::size_t done = forEachVector(typename AllSteps::Whole(), 0, count, body);
-  done = forEachVector(typename AllSteps::Part(), done, count, body);
-  forEachVector(typename AllSteps::Single(), done, count, body);
-}
-
-template <class Body>
-HWY_INLINE void forEachWord(std::size_t count, const Body& body)
-{
-  forEach<Steps<std::uint16_t, 32>>(count, body);
-}
 
 using Bytes = hn::CappedTag<std::uint8_t, SWEEP_ROW_PADDING>;
 
@@ -191,21 +157,22 @@ HWY_INLINE void meanOfRow(const ArmSums* arms, const std::uint16_t* columns, std
 {
   // Exact for divisors of 2 and 3 and totals below 32768.
   constexpr auto RECIPROCAL = static_cast<std::uint16_t>(ARMS > 2 ? 0xFFFF / (ARMS - 1) + 1 : 0);
-  forEachWord(width,
-              [=](auto words, std::size_t x) HWY_ATTR
-              {
-                auto total = windowOf(words, columns + x, arms[0].factor);
-                auto worst = total;
-                for (std::size_t arm = 1; arm < ARMS; ++arm)
-                {
-                  const auto value = windowOf(words, columns + arm * stride + x, arms[arm].factor);
-                  total = hn::Add(total, value);
-                  worst = hn::Max(worst, value);
-                }
-                const auto rest = ARMS > 1 ? hn::Sub(total, worst) : total;
-                const auto mean = ARMS > 2 ? hn::MulHigh(rest, hn::Set(words, RECIPROCAL)) : rest;
-                hn::StoreU(mean, words, cost + x);
-              });
+  forElements<std::uint16_t>(
+      0, static_cast<int>(width),
+      [=](auto words, int x) HWY_ATTR
+      {
+        auto total = windowOf(words, columns + x, arms[0].factor);
+        auto worst = total;
+        for (std::size_t arm = 1; arm < ARMS; ++arm)
+        {
+          const auto value = windowOf(words, columns + arm * stride + x, arms[arm].factor);
+          total = hn::Add(total, value);
+          worst = hn::Max(worst, value);
+        }
+        const auto rest = ARMS > 1 ? hn::Sub(total, worst) : total;
+        const auto mean = ARMS > 2 ? hn::MulHigh(rest, hn::Set(words, RECIPROCAL)) : rest;
+        hn::StoreU(mean, words, cost + x);
+      });
 }
 
 template <std::size_t ARMS>
@@ -252,40 +219,41 @@ void meanOfWindowsSimd(const ArmSums* arms, std::size_t count_of_arms, int width
 void keepBestSimd(const std::uint16_t* cost, std::uint16_t label, std::size_t count, std::uint16_t* best_cost,
                   std::uint16_t* best_label)
 {
-  forEachWord(count,
-              [=](auto words, std::size_t i) HWY_ATTR
-              {
-                const auto value = hn::LoadU(words, cost + i);
-                const auto best = hn::LoadU(words, best_cost + i);
-                const auto labels = hn::LoadU(words, best_label + i);
-                const auto better = hn::Lt(value, best);
-                hn::StoreU(hn::Min(value, best), words, best_cost + i);
-                hn::StoreU(hn::IfThenElse(better, hn::Set(words, label), labels), words, best_label + i);
-              });
+  forElements<std::uint16_t>(0, static_cast<int>(count),
+                             [=](auto words, int i) HWY_ATTR
+                             {
+                               const auto value = hn::LoadU(words, cost + i);
+                               const auto best = hn::LoadU(words, best_cost + i);
+                               const auto labels = hn::LoadU(words, best_label + i);
+                               const auto better = hn::Lt(value, best);
+                               hn::StoreU(hn::Min(value, best), words, best_cost + i);
+                               hn::StoreU(hn::IfThenElse(better, hn::Set(words, label), labels), words,
+                                          best_label + i);
+                             });
 }
 
 void keepRivalSimd(const std::uint16_t* cost, std::uint16_t label, const std::uint16_t* best_label,
                    std::uint16_t distance, std::size_t count, std::uint16_t* least)
 {
-  forEachWord(count,
-              [=](auto words, std::size_t i) HWY_ATTR
-              {
-                const auto here = hn::Set(words, label);
-                const auto best = hn::LoadU(words, best_label + i);
-                const auto apart = hn::Sub(hn::Max(here, best), hn::Min(here, best));
-                const auto before = hn::LoadU(words, least + i);
-                const auto near = hn::Lt(apart, hn::Set(words, distance));
-                const auto after = hn::Min(before, hn::LoadU(words, cost + i));
-                hn::StoreU(hn::IfThenElse(near, before, after), words, least + i);
-              });
+  forElements<std::uint16_t>(0, static_cast<int>(count),
+                             [=](auto words, int i) HWY_ATTR
+                             {
+                               const auto here = hn::Set(words, label);
+                               const auto best = hn::LoadU(words, best_label + i);
+                               const auto apart = hn::Sub(hn::Max(here, best), hn::Min(here, best));
+                               const auto before = hn::LoadU(words, least + i);
+                               const auto near = hn::Lt(apart, hn::Set(words, distance));
+                               const auto after = hn::Min(before, hn::LoadU(words, cost + i));
+                               hn::StoreU(hn::IfThenElse(near, before, after), words, least + i);
+                             });
 }
 
 void exposeBytesSimd(const std::uint8_t* value, const ExposureRow& row, std::size_t count, std::uint8_t* to)
 {
   constexpr float WHITE = 255.0F;
-  forEach<Steps<float, 16>>(
-      count,
-      [=](auto floats, std::size_t i) HWY_ATTR
+  forElements<float>(
+      0, static_cast<int>(count),
+      [=](auto floats, int i) HWY_ATTR
       {
         const hn::Rebind<std::int32_t, decltype(floats)> integers;
         const hn::Rebind<std::uint8_t, decltype(floats)> bytes;

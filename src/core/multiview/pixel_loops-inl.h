@@ -8,6 +8,8 @@
 
 #include <hwy/highway.h>
 
+#include "vector_loops-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace light_field_depth::multiview
 {
@@ -16,22 +18,11 @@ namespace HWY_NAMESPACE
 using Floats = hwy::HWY_NAMESPACE::CappedTag<float, 16>;
 using OneFloat = hwy::HWY_NAMESPACE::CappedTag<float, 1>;
 
-/// Calls body(tag, x) for the pixels first .. last - 1, vector by vector and the rest one by one, so that
-/// nothing beyond them is touched.
+/// Calls body(tag, x) for the pixels first .. last - 1 of a row of floats.
 template <class Body>
 HWY_INLINE void forPixels(int first, int last, const Body& body)
 {
-  const Floats floats;
-  const int lanes = static_cast<int>(hwy::HWY_NAMESPACE::Lanes(floats));
-  int x = first;
-  for (; x + lanes <= last; x += lanes)
-  {
-    body(floats, x);
-  }
-  for (; x < last; ++x)
-  {
-    body(OneFloat(), x);
-  }
+  light_field_depth::HWY_NAMESPACE::forElements<float>(first, last, body);
 }
 
 }  // namespace HWY_NAMESPACE
