@@ -72,6 +72,14 @@ void runAll(int repetitions, Collector& collector)
 
 }  // namespace
 
+std::vector<Kernel> kernels()
+{
+  std::vector<Kernel> all = searchKernels();
+  const std::vector<Kernel> more = mapKernels();
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
 void benchmarkKernels(const Settings& settings)
 {
   const std::vector<Kernel> all = kernels();

@@ -18,7 +18,11 @@ struct Kernel
   std::function<void()> plain;
 };
 
-/// The kernels on a row of a frame of 512 x 512, 17 colour views on a cross and 32 labels.
+/// On a row of a frame of 512 x 512, 17 colour views on a cross and 32 labels: the kernels that views and
+/// labels go through, and those that maps of the disparity do.
+std::vector<Kernel> searchKernels();
+std::vector<Kernel> mapKernels();
+/// Both.
 std::vector<Kernel> kernels();
 
 }  // namespace light_field_depth::benchmark
