@@ -16,7 +16,7 @@ const std::vector<Variant>& ablationVariants()
       {"two visibility passes", {"multiview_visibility_passes=2"}},
       {"textureless regions left where they are", {"multiview_background_fusion=false"}},
       {"thin structures kept", {"multiview_thin_structures=true"}},
-      {"edge pixels not decided by colour", {"multiview_edge_sides=false"}},
+      {"edge pixels not decided by colour", {"multiview_boundary_pixels=false"}},
       {"no refinement", {"multiview_refinements=0"}},
       {"one refinement", {"multiview_refinements=1"}},
       {"four refinements", {"multiview_refinements=4"}},

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "contestant.h"
-#include "light_field_depth/core/photometric_error.h"
 #include "light_field_depth/core/thread_pool.h"
+#include "light_field_depth/evaluation/photometric_error.h"
 #include "light_field_depth/io/dataset.h"
 #include "light_fields.h"
 #include "opencv_baselines.h"

@@ -11,8 +11,8 @@
 
 #include "light_field_depth/core/light_field.h"
 #include "light_field_depth/core/pipeline.h"
-#include "light_field_depth/io/evaluation.h"
-#include "light_field_depth/io/sparsification.h"
+#include "light_field_depth/evaluation/evaluation.h"
+#include "light_field_depth/evaluation/sparsification.h"
 #include "scene.h"
 #include "timing.h"
 

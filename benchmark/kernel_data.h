@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "light_field_depth/core/multiview/cost_kernels.h"
-#include "light_field_depth/core/multiview/label_bands.h"
+#include "core/multiview/search/cost_kernels.h"
+#include "core/multiview/search/label_bands.h"
 
 namespace light_field_depth::benchmark
 {

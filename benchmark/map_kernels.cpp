@@ -3,13 +3,13 @@
 #include <memory>
 #include <vector>
 
+#include "core/multiview/maps/confidence_kernels.h"
+#include "core/multiview/refine/linearize_kernels.h"
+#include "core/multiview/refine/smoothing_kernels.h"
+#include "core/multiview/search/background_kernels.h"
+#include "core/multiview/search/median.h"
 #include "kernel_data.h"
 #include "kernels.h"
-#include "light_field_depth/core/multiview/background_kernels.h"
-#include "light_field_depth/core/multiview/confidence_kernels.h"
-#include "light_field_depth/core/multiview/linearize_kernels.h"
-#include "light_field_depth/core/multiview/median.h"
-#include "light_field_depth/core/multiview/smoothing_kernels.h"
 
 namespace light_field_depth::benchmark
 {
@@ -24,16 +24,16 @@ struct LinearizeData
   static constexpr std::size_t PAD = VECTOR_ROOM;
   static constexpr std::size_t PITCH = PIXELS + 2 * PAD;
   static constexpr std::size_t VIEW_BYTES = HEIGHT * CHANNELS * PITCH;
-  static constexpr std::size_t SPOKES = 4;
+  static constexpr std::size_t RAYS = 4;
 
   std::vector<std::uint8_t> pixels = randomBytes(VIEWS * VIEW_BYTES, 60);
   std::vector<std::uint8_t> reference = randomBytes(CHANNELS * STRIDE, 60);
   std::vector<float> disparity = std::vector<float>(STRIDE);
-  std::vector<float> weights = std::vector<float>(SPOKES * TILE_PIXELS);
+  std::vector<float> weights = std::vector<float>(RAYS * TILE_PIXELS);
   std::vector<float> refocused = std::vector<float>(CHANNELS * STRIDE);
-  std::vector<float> moments = std::vector<float>(SPOKES * SPOKE_MOMENTS * STRIDE);
+  std::vector<float> moments = std::vector<float>(RAYS * RAY_MOMENTS * STRIDE);
   std::array<SampledView, VIEWS> views{};
-  std::array<Spoke, SPOKES> spokes = {{{0, 4}, {4, 8}, {8, 12}, {12, 16}}};
+  std::array<ViewRay, RAYS> rays = {{{0, 4}, {4, 8}, {8, 12}, {12, 16}}};
   LinearizeTile tile;
 
   LinearizeData()
@@ -54,8 +54,8 @@ struct LinearizeData
       (i / 4 % 2 == 0 ? views[i].step_x : views[i].step_y) = views[i].position;
     }
     tile.views = views.data();
-    tile.spokes = spokes.data();
-    tile.spoke_count = static_cast<int>(SPOKES);
+    tile.rays = rays.data();
+    tile.ray_count = static_cast<int>(RAYS);
     tile.width = WIDTH;
     tile.height = HEIGHT;
     tile.reference = reference.data();
@@ -79,7 +79,7 @@ Kernel linearization()
   constexpr double taps = 4.0;
   constexpr double bytes_per_view = taps * CHANNELS;
   constexpr double bytes_per_pixel = VIEWS * bytes_per_view + CHANNELS +
-                                     sizeof(float) * (1.0 + CHANNELS + LinearizeData::SPOKES * SPOKE_MOMENTS);
+                                     sizeof(float) * (1.0 + CHANNELS + LinearizeData::RAYS * RAY_MOMENTS);
   return {"linearize all views",         "pixel x view",      TILE_PIXELS * static_cast<double>(VIEWS),
           bytes_per_pixel * TILE_PIXELS, with(linearizeTile), with(linearizeTilePlain)};
 }

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "light_field_depth/core/multiview/label_space.h"
+#include "core/multiview/search/label_space.h"
 #include "light_field_depth/core/pipeline.h"
 #include "machine_limits.h"
 #include "scene.h"
@@ -23,7 +23,7 @@ constexpr double PER_GIGA = 1e-9;
 constexpr double SECONDS_PER_MS = 1e-3;
 constexpr double PERCENT = 100.0;
 constexpr int MAX_LABELS = 240;
-constexpr double LEAST_SHOWN_MS = 0.05;
+constexpr double MIN_SHOWN_MS = 0.05;
 const char* const REST = "the rest";
 
 struct StageProfile
@@ -177,7 +177,7 @@ void profileFrame(const Settings& settings)
   for (std::size_t i = 0; i < profile.stages.size(); ++i)
   {
     const StageProfile& stage = profile.stages[i];
-    if (stage.timing.median() >= LEAST_SHOWN_MS)
+    if (stage.timing.median() >= MIN_SHOWN_MS)
     {
       report(stage, alone.stages[i].timing.median(), profile.total.median(), work[stage.stage], limits, table,
              json);

@@ -20,7 +20,7 @@ namespace light_field_depth::benchmark
 namespace
 {
 /// The exponent that growth with pixels, views and labels must not exceed.
-constexpr double LARGEST_EXPONENT = 1.1;
+constexpr double MAX_EXPONENT = 1.1;
 constexpr int BASE_SIDE = 512;
 constexpr int BASE_CROSS = 9;
 
@@ -37,7 +37,7 @@ struct Series
 {
   std::string name;
   std::string unit;
-  bool bounded = true;  ///< whether the exponent must not exceed LARGEST_EXPONENT
+  bool bounded = true;  ///< whether the exponent must not exceed MAX_EXPONENT
   std::vector<Load> loads;
 };
 
@@ -148,8 +148,8 @@ void report(const Series& series, const Chart& chart, Table& table, nlohmann::or
   std::string verdict = "";
   if (series.bounded)
   {
-    const bool within = chart.fit.exponent <= LARGEST_EXPONENT;
-    entry["largest_exponent"] = LARGEST_EXPONENT;
+    const bool within = chart.fit.exponent <= MAX_EXPONENT;
+    entry["largest_exponent"] = MAX_EXPONENT;
     entry["within"] = within;
     verdict = within ? "yes" : "NO";
   }
@@ -162,7 +162,7 @@ void report(const Series& series, const Chart& chart, Table& table, nlohmann::or
 void measureGrowth(const Settings& settings)
 {
   Table table;
-  table.header = {"time over", "median ms", "exponent", "at most " + fixed(LARGEST_EXPONENT, 1)};
+  table.header = {"time over", "median ms", "exponent", "at most " + fixed(MAX_EXPONENT, 1)};
   table.note =
       "512 x 512 pixels, 17 views on a cross, and the range given unless the row says otherwise. Of more "
       "than "

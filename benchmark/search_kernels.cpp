@@ -7,12 +7,12 @@
 #include <memory>
 #include <vector>
 
-#include "light_field_depth/core/multiview/cost_kernels.h"
-#include "light_field_depth/core/multiview/half_resolution.h"
-#include "light_field_depth/core/multiview/path_kernels.h"
-#include "light_field_depth/core/multiview/pixel_kernels.h"
-#include "light_field_depth/core/multiview/sample_rows.h"
-#include "light_field_depth/core/multiview/visibility_kernels.h"
+#include "core/light_field/half_resolution.h"
+#include "core/light_field/pixel_kernels.h"
+#include "core/multiview/search/cost_kernels.h"
+#include "core/multiview/search/path_kernels.h"
+#include "core/multiview/search/sample_rows.h"
+#include "core/multiview/search/visibility_kernels.h"
 
 namespace light_field_depth::benchmark
 {
@@ -104,7 +104,7 @@ struct PathData
   std::vector<std::uint8_t> cost = randomBytes(TILE_ENTRIES, FULL_COST);
   std::vector<std::uint8_t> transposed = std::vector<std::uint8_t>(TILE_ENTRIES);
   std::vector<std::uint16_t> sums = std::vector<std::uint16_t>(TILE_ENTRIES);
-  std::vector<std::uint16_t> p2 = std::vector<std::uint16_t>(TILE_PX, 500);
+  std::vector<std::uint16_t> large_change_penalty = std::vector<std::uint16_t>(TILE_PX, 500);
   std::vector<std::uint16_t> state = std::vector<std::uint16_t>((LABELS + 2) * TILE_PX, NO_STATE);
   std::array<std::uint16_t, TILE_PX> minima{};
   std::array<float, TILE_PX> best{};
@@ -116,8 +116,8 @@ struct PathData
     tile.cost = cost.data();
     tile.sums = sums.data();
     tile.labels = LABELS;
-    tile.p1 = 30;
-    tile.p2 = p2.data();
+    tile.small_change_penalty = 30;
+    tile.large_change_penalty = large_change_penalty.data();
     tile.state = state.data() + TILE_PX;
     tile.minima = minima.data();
   }

@@ -1,6 +1,6 @@
 #include "stage_work.h"
 
-#include "light_field_depth/core/multiview/edge_aware_smoothing.h"
+#include "core/multiview/refine/edge_aware_smoothing.h"
 
 namespace light_field_depth::benchmark
 {

@@ -3,10 +3,12 @@
 set(LFD_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<BOOL:${LIGHT_FIELD_DEPTH_WERROR}>:-Werror>)
 
-# Settings shared by every target: own headers, warnings; headers of others count as system headers.
+# Settings shared by every target: the public headers, the internal ones (by their path in src/), warnings; headers of
+# others count as system headers.
 function(lfd_configure target)
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(${target} PRIVATE ${LFD_WARNINGS})
 endfunction()
 

@@ -6,11 +6,11 @@
 #include <system_error>
 #include <utility>
 
-#include "folder_description.h"
+#include "io/folder_description.h"
+#include "io/view_placement.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/thread_pool.h"
 #include "light_field_depth/io/image_files.h"
-#include "view_placement.h"
 
 namespace light_field_depth
 {

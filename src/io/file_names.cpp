@@ -6,10 +6,10 @@
 #include <regex>
 #include <system_error>
 
-#include "folder_description.h"
+#include "io/folder_description.h"
+#include "io/number_text.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/image_files.h"
-#include "number_text.h"
 
 namespace light_field_depth
 {

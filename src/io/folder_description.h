@@ -14,11 +14,11 @@
 namespace light_field_depth
 {
 /// Numbers of rows and columns go so far, either way.
-constexpr int LARGEST_NUMBER = 99999;
+constexpr int MAX_NUMBER = 99999;
 
 inline bool canBeCounted(const GridPosition& number)
 {
-  const auto is_within = [](int value) { return value >= -LARGEST_NUMBER && value <= LARGEST_NUMBER; };
+  const auto is_within = [](int value) { return value >= -MAX_NUMBER && value <= MAX_NUMBER; };
   return is_within(number.row) && is_within(number.column);
 }
 

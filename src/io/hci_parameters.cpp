@@ -3,9 +3,9 @@
 #include <boost/property_tree/ini_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 
-#include "folder_description.h"
+#include "io/folder_description.h"
+#include "io/number_text.h"
 #include "light_field_depth/core/error.h"
-#include "number_text.h"
 
 namespace light_field_depth
 {

@@ -4,9 +4,9 @@
 #include <regex>
 #include <set>
 
-#include "folder_description.h"
+#include "io/folder_description.h"
+#include "io/yaml_fields.h"
 #include "light_field_depth/core/error.h"
-#include "yaml_fields.h"
 
 namespace light_field_depth
 {

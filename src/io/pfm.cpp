@@ -6,9 +6,9 @@
 #include <cstring>
 #include <string>
 
+#include "io/number_text.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/files.h"
-#include "number_text.h"
 
 namespace light_field_depth
 {

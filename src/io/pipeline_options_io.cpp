@@ -7,10 +7,10 @@
 #include <sstream>
 #include <type_traits>
 
+#include "io/number_text.h"
+#include "io/yaml_fields.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/options_visitor.h"
-#include "number_text.h"
-#include "yaml_fields.h"
 
 namespace light_field_depth
 {

@@ -1,4 +1,4 @@
-#include "view_placement.h"
+#include "io/view_placement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ void checkNumbers(const std::vector<ViewFile>& views)
     if (!canBeCounted(number))
     {
       throw InputError("The view '" + views[i].path.string() + "' has the place " + toString(number) +
-                       "; rows and columns are counted up to " + std::to_string(LARGEST_NUMBER) + ".");
+                       "; rows and columns are counted up to " + std::to_string(MAX_NUMBER) + ".");
     }
     if (i > 0 && number == views[i - 1].number)
     {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "folder_description.h"
+#include "io/folder_description.h"
 
 namespace light_field_depth
 {

@@ -1,4 +1,4 @@
-#include "yaml_fields.h"
+#include "io/yaml_fields.h"
 
 #include <algorithm>
 #include <sstream>

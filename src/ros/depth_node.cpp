@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/depth_node.h"
+#include "ros/depth_node_implementation.h"
 
 #include <utility>
 
@@ -6,8 +6,8 @@
 #include <ros/time.h>
 
 #include "light_field_depth/core/error.h"
-#include "light_field_depth/ros/input_report.h"
 #include "light_field_depth/ros/result_messages.h"
+#include "ros/input_report.h"
 
 namespace light_field_depth
 {
@@ -65,7 +65,8 @@ void addInputCounts(const ViewSynchronizerStatistics& input, LightFieldDepthStat
 
 }  // namespace
 
-DepthNode::DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle)
+DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
+                                          const ros::NodeHandle& private_node_handle)
     : parameters_(readNodeParameters(private_node_handle)), diagnostics_(node_handle, private_node_handle),
       settings_(private_node_handle, [this](const std::string& sentence) { diagnostics_.warn(sentence); }),
       queue_(queueCapacity(parameters_)),
@@ -83,8 +84,8 @@ DepthNode::DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& 
   }
   updateSubscriptions();
   ros::NodeHandle services = private_node_handle;
-  reset_service_ = services.advertiseService("reset", &DepthNode::reset, this);
-  watch_timer_ = services.createSteadyTimer(WATCH_PERIOD, &DepthNode::watch, this);
+  reset_service_ = services.advertiseService("reset", &Implementation::reset, this);
+  watch_timer_ = services.createSteadyTimer(WATCH_PERIOD, &Implementation::watch, this);
   ROS_INFO_STREAM("Depth from " << parameters_.array.views.size() << " views, "
                                 << parameters_.array.views.front().image << " to "
                                 << parameters_.array.views.back().image << ", on " << pipeline_.threads()
@@ -93,7 +94,7 @@ DepthNode::DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& 
   worker_ = std::thread([this] { workerLoop(); });
 }
 
-DepthNode::~DepthNode()
+DepthNode::Implementation::~Implementation()
 {
   {
     const std::lock_guard<std::mutex> lock(subscription_mutex_);
@@ -110,14 +111,14 @@ DepthNode::~DepthNode()
   results_->shutdown();
 }
 
-void DepthNode::updateSubscriptions()
+void DepthNode::Implementation::updateSubscriptions()
 {
   const std::lock_guard<std::mutex> lock(subscription_mutex_);
   if (shutting_down_)
   {
     return;
   }
-  const bool wanted = !parameters_.lazy || results_->audience().any();
+  const bool wanted = !parameters_.lazy || results_->subscribers().any();
   if (wanted && !subscribed_)
   {
     input_.subscribe();
@@ -130,7 +131,8 @@ void DepthNode::updateSubscriptions()
   subscribed_ = wanted;
 }
 
-bool DepthNode::reset(std_srvs::Empty::Request& /*request*/, std_srvs::Empty::Response& /*response*/)
+bool DepthNode::Implementation::reset(std_srvs::Empty::Request& /*request*/,
+                                      std_srvs::Empty::Response& /*response*/)
 {
   queue_.setHeldBack(parameters_.use_camera_info);
   input_.forget();
@@ -138,7 +140,7 @@ bool DepthNode::reset(std_srvs::Empty::Request& /*request*/, std_srvs::Empty::Re
   return true;
 }
 
-void DepthNode::watch(const ros::SteadyTimerEvent& /*event*/)
+void DepthNode::Implementation::watch(const ros::SteadyTimerEvent& /*event*/)
 {
   bool listening = false;
   {
@@ -161,7 +163,7 @@ void DepthNode::watch(const ros::SteadyTimerEvent& /*event*/)
     const auto infos =
         parameters_.use_camera_info ? input_.cameraInfos() : std::vector<sensor_msgs::CameraInfoConstPtr>();
     const std::string sentence =
-        explainSilence(parameters_.array, heard_before_, heard, infos, parameters_.patience_s);
+        diagnoseMissingInput(parameters_.array, heard_before_, heard, infos, parameters_.patience_s);
     if (!sentence.empty())
     {
       diagnostics_.warn(sentence);
@@ -172,7 +174,7 @@ void DepthNode::watch(const ros::SteadyTimerEvent& /*event*/)
   diagnostics_.update(heard, queue_.dropped(), listening);
 }
 
-void DepthNode::workerLoop()
+void DepthNode::Implementation::workerLoop()
 {
   while (const std::optional<FrameSet> set = queue_.pop())
   {
@@ -180,14 +182,14 @@ void DepthNode::workerLoop()
   }
 }
 
-void DepthNode::processSafely(const FrameSet& set)
+void DepthNode::Implementation::processSafely(const FrameSet& set)
 {
   try
   {
-    const Audience audience = results_->audience();
-    if (audience.any())
+    const Subscribers subscribers = results_->subscribers();
+    if (subscribers.any())
     {
-      process(set, audience);
+      process(set, subscribers);
     }
   }
   catch (const Cancelled&)
@@ -200,7 +202,7 @@ void DepthNode::processSafely(const FrameSet& set)
   }
 }
 
-void DepthNode::process(const FrameSet& set, const Audience& audience)
+void DepthNode::Implementation::process(const FrameSet& set, const Subscribers& subscribers)
 {
   FrameReport report;
   report.views_expected = set.images.size();
@@ -222,31 +224,32 @@ void DepthNode::process(const FrameSet& set, const Audience& audience)
   }
   const std::shared_ptr<const NodeSettings> settings = settings_.snapshot();
   report.method = toString(settings->pipeline.method);
-  const auto products = std::make_shared<FrameProducts>(compute(light_field, *settings, header, audience));
+  const auto products = std::make_shared<FrameProducts>(compute(light_field, *settings, header, subscribers));
   products->info = infos[parameters_.array.reference];
   report.computed = std::chrono::steady_clock::now();
   publication_.run([this, products, report] { publishSafely(*products, report); });
 }
 
-FrameProducts DepthNode::compute(const LightField& light_field, const NodeSettings& settings,
-                                 const std_msgs::Header& header, const Audience& audience)
+FrameProducts DepthNode::Implementation::compute(const LightField& light_field, const NodeSettings& settings,
+                                                 const std_msgs::Header& header,
+                                                 const Subscribers& subscribers)
 {
   FrameProducts products;
   products.header = header;
-  products.audience = audience;
+  products.subscribers = subscribers;
   products.calibration = *light_field.calibration;
   products.min_confidence = settings.pipeline.min_confidence;
 
   ProductRequest request;
-  request.depth = audience.depth;
-  request.organized_cloud = audience.points2;
-  request.organized_cloud_room = [&](std::size_t /*count*/)
+  request.depth = subscribers.depth;
+  request.organized_cloud = subscribers.points2;
+  request.organized_cloud_allocator = [&](std::size_t /*count*/)
   {
     products.points2 = organized_clouds_.take();
     return shapeOrganizedCloud(header, light_field.size(), *products.points2);
   };
-  request.dense_cloud = audience.points_dense && settings.dense_cloud;
-  request.dense_cloud_room = [&](std::size_t count)
+  request.dense_cloud = subscribers.points_dense && settings.dense_cloud;
+  request.dense_cloud_allocator = [&](std::size_t count)
   {
     products.points_dense = dense_clouds_.take();
     return shapeDenseCloud(header, count, *products.points_dense);
@@ -255,14 +258,14 @@ FrameProducts DepthNode::compute(const LightField& light_field, const NodeSettin
   return products;
 }
 
-void DepthNode::publishSafely(const FrameProducts& products, FrameReport report)
+void DepthNode::Implementation::publishSafely(const FrameProducts& products, FrameReport report)
 {
   try
   {
     results_->publish(products);
     report.published = std::chrono::steady_clock::now();
     diagnostics_.framePublished(millisecondsBetween(report.arrived, report.published));
-    if (products.audience.stats)
+    if (products.subscribers.stats)
     {
       results_->publish(statsOf(products, report));
     }
@@ -273,7 +276,8 @@ void DepthNode::publishSafely(const FrameProducts& products, FrameReport report)
   }
 }
 
-LightFieldDepthStats DepthNode::statsOf(const FrameProducts& products, const FrameReport& report) const
+LightFieldDepthStats DepthNode::Implementation::statsOf(const FrameProducts& products,
+                                                        const FrameReport& report) const
 {
   const DisparityEstimate& estimate = products.result.estimate;
   LightFieldDepthStats stats;
@@ -293,5 +297,12 @@ LightFieldDepthStats DepthNode::statsOf(const FrameProducts& products, const Fra
   addInputCounts(input_.statistics(), stats);
   return stats;
 }
+
+DepthNode::DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle)
+    : implementation_(std::make_unique<Implementation>(node_handle, private_node_handle))
+{
+}
+
+DepthNode::~DepthNode() = default;
 
 }  // namespace light_field_depth

@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/input_report.h"
+#include "ros/input_report.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -58,9 +58,9 @@ std::string stampDifference(const ViewSynchronizerStatistics& statistics)
 
 }  // namespace
 
-std::string explainSilence(const ViewArray& array, const ViewSynchronizerStatistics& before,
-                           const ViewSynchronizerStatistics& now,
-                           const std::vector<sensor_msgs::CameraInfoConstPtr>& infos, double seconds)
+std::string diagnoseMissingInput(const ViewArray& array, const ViewSynchronizerStatistics& before,
+                                 const ViewSynchronizerStatistics& now,
+                                 const std::vector<sensor_msgs::CameraInfoConstPtr>& infos, double seconds)
 {
   std::ostringstream text;
   const std::vector<std::size_t> silent = silentViews(before, now);

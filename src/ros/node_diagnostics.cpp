@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/node_diagnostics.h"
+#include "ros/node_diagnostics.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/node_parameters.h"
+#include "ros/node_parameters.h"
 
 #include <algorithm>
 #include <cmath>

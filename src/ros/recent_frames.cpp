@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/recent_frames.h"
+#include "ros/recent_frames.h"
 
 #include <algorithm>
 #include <vector>
@@ -20,7 +20,7 @@ double percentile(const std::vector<double>& sorted, std::size_t percent)
 void RecentFrames::add(double latency_ms, Time published)
 {
   frames_.push_back({latency_ms, published});
-  while (frames_.size() > MOST_FRAMES || published - frames_.front().published > LONGEST_AGE)
+  while (frames_.size() > MAX_FRAMES || published - frames_.front().published > LONGEST_AGE)
   {
     frames_.pop_front();
   }

@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/result_publisher.h"
+#include "ros/result_publisher.h"
 
 #include <sensor_msgs/PointCloud2.h>
 #include <stereo_msgs/DisparityImage.h>
@@ -43,55 +43,56 @@ sensor_msgs::CameraInfoPtr referenceInfo(const std_msgs::Header& header, const s
 }  // namespace
 
 ResultPublisher::ResultPublisher(const ros::NodeHandle& private_node_handle,
-                                 const std::function<void()>& on_audience_changed)
+                                 const std::function<void()>& on_subscribers_changed)
     : image_transport_(private_node_handle), disparity_(advertise<stereo_msgs::DisparityImage>(
-                                                 private_node_handle, "disparity", on_audience_changed)),
-      disparity_color_(advertiseImage(image_transport_, "disparity_color", on_audience_changed)),
-      depth_(advertiseImage(image_transport_, "depth", on_audience_changed)),
-      confidence_(advertiseImage(image_transport_, "confidence", on_audience_changed)),
-      points2_(advertise<sensor_msgs::PointCloud2>(private_node_handle, "points2", on_audience_changed)),
+                                                 private_node_handle, "disparity", on_subscribers_changed)),
+      disparity_color_(advertiseImage(image_transport_, "disparity_color", on_subscribers_changed)),
+      depth_(advertiseImage(image_transport_, "depth", on_subscribers_changed)),
+      confidence_(advertiseImage(image_transport_, "confidence", on_subscribers_changed)),
+      points2_(advertise<sensor_msgs::PointCloud2>(private_node_handle, "points2", on_subscribers_changed)),
       points_dense_(
-          advertise<sensor_msgs::PointCloud2>(private_node_handle, "points_dense", on_audience_changed)),
+          advertise<sensor_msgs::PointCloud2>(private_node_handle, "points_dense", on_subscribers_changed)),
       camera_info_(
-          advertise<sensor_msgs::CameraInfo>(private_node_handle, "camera_info", on_audience_changed)),
-      stats_(advertise<LightFieldDepthStats>(private_node_handle, "stats", on_audience_changed))
+          advertise<sensor_msgs::CameraInfo>(private_node_handle, "camera_info", on_subscribers_changed)),
+      stats_(advertise<LightFieldDepthStats>(private_node_handle, "stats", on_subscribers_changed))
 {
 }
 
-Audience ResultPublisher::audience() const
+Subscribers ResultPublisher::subscribers() const
 {
-  Audience audience;
-  audience.disparity = disparity_.getNumSubscribers() > 0;
-  audience.disparity_color = disparity_color_.getNumSubscribers() > 0;
-  audience.depth = depth_.getNumSubscribers() > 0;
-  audience.confidence = confidence_.getNumSubscribers() > 0;
-  audience.points2 = points2_.getNumSubscribers() > 0;
-  audience.points_dense = points_dense_.getNumSubscribers() > 0;
-  audience.camera_info = camera_info_.getNumSubscribers() > 0;
-  audience.stats = stats_.getNumSubscribers() > 0;
-  return audience;
+  Subscribers subscribers;
+  subscribers.disparity = disparity_.getNumSubscribers() > 0;
+  subscribers.disparity_color = disparity_color_.getNumSubscribers() > 0;
+  subscribers.depth = depth_.getNumSubscribers() > 0;
+  subscribers.confidence = confidence_.getNumSubscribers() > 0;
+  subscribers.points2 = points2_.getNumSubscribers() > 0;
+  subscribers.points_dense = points_dense_.getNumSubscribers() > 0;
+  subscribers.camera_info = camera_info_.getNumSubscribers() > 0;
+  subscribers.stats = stats_.getNumSubscribers() > 0;
+  return subscribers;
 }
 
 void ResultPublisher::publish(const FrameProducts& products) const
 {
-  const auto& [header, audience, calibration, min_confidence, result, points2, points_dense, info] = products;
-  if (audience.camera_info && info != nullptr)
+  const auto& [header, subscribers, calibration, min_confidence, result, points2, points_dense, info] =
+      products;
+  if (subscribers.camera_info && info != nullptr)
   {
     camera_info_.publish(referenceInfo(header, *info));
   }
-  if (audience.disparity)
+  if (subscribers.disparity)
   {
     disparity_.publish(disparityMessage(header, result.estimate, calibration, min_confidence));
   }
-  if (audience.disparity_color)
+  if (subscribers.disparity_color)
   {
     disparity_color_.publish(disparityColorMessage(header, result.estimate));
   }
-  if (audience.depth)
+  if (subscribers.depth)
   {
     depth_.publish(floatImageMessage(header, result.depth));
   }
-  if (audience.confidence)
+  if (subscribers.confidence)
   {
     confidence_.publish(floatImageMessage(header, result.estimate.confidence));
   }

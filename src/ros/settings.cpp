@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/settings.h"
+#include "ros/settings.h"
 
 #include <type_traits>
 #include <utility>

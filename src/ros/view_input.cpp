@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/view_input.h"
+#include "ros/view_input.h"
 
 #include <chrono>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "dataset_input.h"
+#include "tools/dataset_input.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
-#include "dataset_input.h"
 #include "light_field_depth/core/error.h"
-#include "tool_main.h"
+#include "tools/dataset_input.h"
+#include "tools/tool_main.h"
 
 namespace light_field_depth
 {

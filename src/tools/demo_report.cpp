@@ -16,11 +16,11 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "light_field_depth/LightFieldDepthStats.h"
+#include "light_field_depth/evaluation/evaluation.h"
 #include "light_field_depth/io/cloud_files.h"
 #include "light_field_depth/io/disparity_image.h"
-#include "light_field_depth/io/evaluation.h"
 #include "light_field_depth/io/pfm.h"
-#include "tool_main.h"
+#include "tools/tool_main.h"
 
 namespace light_field_depth
 {

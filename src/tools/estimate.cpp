@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "light_field_depth/core/photometric_error.h"
+#include "light_field_depth/evaluation/photometric_error.h"
 #include "light_field_depth/io/cloud_files.h"
 #include "light_field_depth/io/dataset.h"
 #include "light_field_depth/io/disparity_image.h"
@@ -18,8 +18,8 @@
 #include "light_field_depth/io/pfm.h"
 #include "light_field_depth/io/pipeline_options_io.h"
 #include "light_field_depth/io/report.h"
-#include "progress_bar.h"
-#include "tool_main.h"
+#include "tools/progress_bar.h"
+#include "tools/tool_main.h"
 
 namespace
 {

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "light_field_depth/io/evaluation.h"
+#include "light_field_depth/evaluation/evaluation.h"
+#include "light_field_depth/evaluation/sparsification.h"
 #include "light_field_depth/io/image_files.h"
 #include "light_field_depth/io/pfm.h"
-#include "light_field_depth/io/sparsification.h"
-#include "tool_main.h"
+#include "tools/tool_main.h"
 
 namespace
 {

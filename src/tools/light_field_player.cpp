@@ -3,8 +3,8 @@
 
 #include <ros/ros.h>
 
-#include "dataset_input.h"
-#include "tool_main.h"
+#include "tools/dataset_input.h"
+#include "tools/tool_main.h"
 
 namespace light_field_depth
 {

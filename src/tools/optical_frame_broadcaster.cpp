@@ -6,7 +6,7 @@
 #include <tf2/LinearMath/Quaternion.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include "tool_main.h"
+#include "tools/tool_main.h"
 
 namespace light_field_depth
 {

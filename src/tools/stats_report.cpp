@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "light_field_depth/LightFieldDepthStats.h"
-#include "tool_main.h"
+#include "tools/tool_main.h"
 
 namespace light_field_depth
 {

@@ -7,14 +7,14 @@
 
 #include <gtest/gtest.h>
 
-#include "light_field_depth/core/multiview/cost_kernels.h"
-#include "light_field_depth/core/multiview/cubic_taps.h"
-#include "light_field_depth/core/multiview/label_space.h"
-#include "light_field_depth/core/multiview/linearize_kernels.h"
-#include "light_field_depth/core/multiview/pixel_kernels.h"
-#include "light_field_depth/core/multiview/sample_rows.h"
-#include "light_field_depth/core/multiview/view_set.h"
-#include "light_field_depth/core/multiview/visibility_kernels.h"
+#include "core/light_field/pixel_kernels.h"
+#include "core/light_field/view_set.h"
+#include "core/multiview/refine/cubic_taps.h"
+#include "core/multiview/refine/linearize_kernels.h"
+#include "core/multiview/search/cost_kernels.h"
+#include "core/multiview/search/label_space.h"
+#include "core/multiview/search/sample_rows.h"
+#include "core/multiview/search/visibility_kernels.h"
 #include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview
@@ -278,14 +278,14 @@ public:
   template <typename Kernel>
   std::vector<float> run(const Kernel& kernel) const
   {
-    const std::vector<Spoke> spokes = {{0, 2}, {2, 3}, {3, 5}};
-    std::vector<float> weights(spokes.size() * TILE_PIXELS);
+    const std::vector<ViewRay> rays = {{0, 2}, {2, 3}, {3, 5}};
+    std::vector<float> weights(rays.size() * TILE_PIXELS);
     std::vector<float> mean(channels_ * TILED_STRIDE);
-    std::vector<float> moments(spokes.size() * SPOKE_MOMENTS * TILED_STRIDE);
+    std::vector<float> moments(rays.size() * RAY_MOMENTS * TILED_STRIDE);
     LinearizeTile tile;
     tile.views = views_.data();
-    tile.spokes = spokes.data();
-    tile.spoke_count = static_cast<int>(spokes.size());
+    tile.rays = rays.data();
+    tile.ray_count = static_cast<int>(rays.size());
     tile.width = WIDTH;
     tile.height = HEIGHT;
     tile.channels = static_cast<int>(channels_);

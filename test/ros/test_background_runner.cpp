@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/background_runner.h"
+#include "ros/background_runner.h"
 
 #include <atomic>
 #include <future>

@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/frame_queue.h"
+#include "ros/frame_queue.h"
 
 #include <thread>
 

@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/input_report.h"
+#include "ros/input_report.h"
 
 #include <gtest/gtest.h>
 #include <boost/make_shared.hpp>
@@ -37,32 +37,32 @@ void expectParts(const std::string& text, const std::vector<std::string>& parts)
   }
 }
 
-TEST(ExplainSilence, NamesTheTopicsThatAreSilent)
+TEST(DiagnoseMissingInput, NamesTheTopicsThatAreSilent)
 {
   const auto before = statistics({5, 5, 5}, 5);
-  expectParts(explainSilence(array(), before, statistics({9, 5, 9}, 5), {}, 5.0),
+  expectParts(diagnoseMissingInput(array(), before, statistics({9, 5, 9}, 5), {}, 5.0),
               {"View (0, 1) (cam1/image)", "5 s", "leave these views out"});
-  expectParts(explainSilence(array(), before, statistics({9, 5, 5}, 5), {}, 5.0), {"1 more: (0, 2)"});
-  expectParts(explainSilence(array(), before, before, {}, 5.0), {"No images", "cam0/image", "2 views"});
+  expectParts(diagnoseMissingInput(array(), before, statistics({9, 5, 5}, 5), {}, 5.0), {"1 more: (0, 2)"});
+  expectParts(diagnoseMissingInput(array(), before, before, {}, 5.0), {"No images", "cam0/image", "2 views"});
 }
 
-TEST(ExplainSilence, TellsStampsThatDoNotMatch)
+TEST(DiagnoseMissingInput, TellsStampsThatDoNotMatch)
 {
-  expectParts(explainSilence(array(), statistics({0, 0, 0}, 0), statistics({5, 6, 7}, 0), {}, 5.0),
+  expectParts(diagnoseMissingInput(array(), statistics({0, 0, 0}, 0), statistics({5, 6, 7}, 0), {}, 5.0),
               {"All 3 views", "2 ms", "sync_tolerance"});
 }
 
-TEST(ExplainSilence, NamesTheCameraInfoThatIsMissing)
+TEST(DiagnoseMissingInput, NamesTheCameraInfoThatIsMissing)
 {
   const auto info = boost::make_shared<const sensor_msgs::CameraInfo>();
-  expectParts(
-      explainSilence(array(), statistics({0, 0, 0}, 0), statistics({5, 5, 5}, 5), {info, info, nullptr}, 5.0),
-      {"View (0, 2)", "cam2/info", "use_camera_info"});
+  expectParts(diagnoseMissingInput(array(), statistics({0, 0, 0}, 0), statistics({5, 5, 5}, 5),
+                                   {info, info, nullptr}, 5.0),
+              {"View (0, 2)", "cam2/info", "use_camera_info"});
 }
 
-TEST(ExplainSilence, SaysNothingWhenNothingIsWrong)
+TEST(DiagnoseMissingInput, SaysNothingWhenNothingIsWrong)
 {
-  EXPECT_EQ(explainSilence(array(), statistics({0, 0, 0}, 0), statistics({5, 5, 5}, 5), {}, 5.0), "");
+  EXPECT_EQ(diagnoseMissingInput(array(), statistics({0, 0, 0}, 0), statistics({5, 5, 5}, 5), {}, 5.0), "");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/light_field_assembler.h"
+#include "ros/light_field_assembler.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/message_pool.h"
+#include "ros/message_pool.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "light_field_depth/ros/recent_frames.h"
+#include "ros/recent_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -51,11 +51,11 @@ TEST(RecentFrames, ForgetWhatIsLongAgo)
   recent.add(1.0, after(milliseconds(60001)));
   EXPECT_EQ(recent.summary().frames, 1U);
   EXPECT_DOUBLE_EQ(recent.summary().longest_ms, 1.0);
-  for (std::size_t i = 0; i < RecentFrames::MOST_FRAMES; ++i)
+  for (std::size_t i = 0; i < RecentFrames::MAX_FRAMES; ++i)
   {
     recent.add(2.0, after(milliseconds(60002)));
   }
-  EXPECT_EQ(recent.summary().frames, RecentFrames::MOST_FRAMES);
+  EXPECT_EQ(recent.summary().frames, RecentFrames::MAX_FRAMES);
   EXPECT_DOUBLE_EQ(recent.summary().p99_ms, 2.0);
 }
 

@@ -3,6 +3,8 @@
 #include <thread>
 #include <utility>
 
+#include "light_field_depth/ros/view_array.h"
+
 namespace light_field_depth::testing
 {
 namespace

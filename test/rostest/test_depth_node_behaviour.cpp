@@ -8,6 +8,7 @@
 
 #include "array_fixture.h"
 #include "light_field_depth/LightFieldDepthStats.h"
+#include "light_field_depth/core/error.h"
 
 namespace light_field_depth::testing
 {

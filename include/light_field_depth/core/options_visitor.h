@@ -64,7 +64,7 @@ void visitMultiviewOptions(Options& options, Visitor& visit)
   visit("multiview_visibility_passes", options.visibility_passes);
   visit("multiview_background_fusion", options.background_fusion);
   visit("multiview_thin_structures", options.thin_structures);
-  visit("multiview_edge_sides", options.edge_sides);
+  visit("multiview_boundary_pixels", options.boundary_pixels);
   visit("multiview_refinements", options.refinements);
   visit("multiview_brightness_slope", options.brightness_slope);
   visit("multiview_refinement_smoothness", options.refinement_smoothness);

@@ -12,14 +12,17 @@
 #include "light_field_depth/core/cancellation.h"
 #include "light_field_depth/core/estimator.h"
 #include "light_field_depth/core/light_field.h"
-#include "light_field_depth/core/multiview_estimator.h"
-#include "light_field_depth/core/paper2017_estimator.h"
+#include "light_field_depth/core/multiview_options.h"
+#include "light_field_depth/core/paper2017_options.h"
 #include "light_field_depth/core/point_cloud.h"
 #include "light_field_depth/core/run_context.h"
 #include "light_field_depth/core/thread_pool.h"
 
 namespace light_field_depth
 {
+class MultiviewEstimator;
+class Paper2017Estimator;
+
 enum class Method
 {
   Multiview,  ///< all views solved together, aware of occlusions
@@ -59,8 +62,8 @@ struct ProductRequest
   bool organized_cloud = false;
   bool dense_cloud = false;
   /// Where the points go; empty: into the vectors of the result.
-  PointRoom organized_cloud_room;
-  PointRoom dense_cloud_room;
+  PointAllocator organized_cloud_allocator;
+  PointAllocator dense_cloud_allocator;
 };
 
 struct PipelineResult

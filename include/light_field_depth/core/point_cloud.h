@@ -32,7 +32,7 @@ static_assert(sizeof(ColoredPoint) == 16, "the clouds are written straight into 
 /// Room for the points of a cloud in memory of the caller's, such as the buffer of a message. Called once, on
 /// the calling thread, when the number of points is known; what it throws comes out of the function that
 /// makes the cloud.
-using PointRoom = std::function<ColoredPoint*(std::size_t count)>;
+using PointAllocator = std::function<ColoredPoint*(std::size_t count)>;
 
 /// The depth of the reference view as an organised cloud (paper, 3.3.1).
 /// @param disparity  CV_32FC1, the reference view's
@@ -61,7 +61,7 @@ std::vector<std::string> validate(const DenseCloudOptions& options);
 /// @pre light_field.calibration is set
 /// @pre validate(options) is empty
 void denseCloud(const LightField& light_field, const std::vector<ViewDisparity>& maps,
-                const DenseCloudOptions& options, ThreadPool& pool, const PointRoom& room);
+                const DenseCloudOptions& options, ThreadPool& pool, const PointAllocator& room);
 
 /// The same, into a vector.
 std::vector<ColoredPoint> denseCloud(const LightField& light_field, const std::vector<ViewDisparity>& maps,

@@ -1,4 +1,4 @@
-#include "light_field_depth/core/multiview/noise.h"
+#include "core/multiview/noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,13 +39,13 @@ void adaptToNoise(float noise_sigma, SolverSettings& settings)
       std::clamp(cvRound(TRUNCATION_PER_SIGMA * left), settings.cost.truncation, MAX_TRUNCATION);
   settings.cost.unseen_penalty = std::max(settings.cost.unseen_penalty, settings.cost.truncation);
   settings.label_step_px = std::max(settings.label_step_px, NOISY_LABEL_STEP_PX);
-  settings.paths.small_step += cvRound(PENALTY_PER_SIGMA * left);
-  settings.edge_sides.min_contrast += CONTRAST_PER_SIGMA * left;
+  settings.paths.small_change_penalty += cvRound(PENALTY_PER_SIGMA * left);
+  settings.boundary_pixels.min_contrast += CONTRAST_PER_SIGMA * left;
   if (noise_sigma >= STRONG_SIGMA)
   {
     settings.linearization.window_radius = WIDE_WINDOW_RADIUS;
-    settings.last_small_step_share = 1.0F;
-    settings.last_large_step_share = 1.0F;
+    settings.last_small_change_share = 1.0F;
+    settings.last_large_change_share = 1.0F;
     // Worth their time only here, and only where colour is worth its time.
     if (!settings.grey_search)
     {

@@ -1,33 +1,37 @@
-#include "light_field_depth/core/multiview/sequence.h"
+#include "core/multiview/sequence.h"
 
-#include <sstream>
 #include <utility>
 
 namespace light_field_depth::multiview
 {
-namespace
+Sequence::Signature Sequence::signatureOf(const LightField& light_field, const FrameSettings& settings)
 {
-/// Text that differs whenever the views or the settings do.
-std::string signatureOf(const LightField& light_field, const std::string& settings)
-{
-  std::ostringstream text;
-  text.precision(17);
   const cv::Mat& image = light_field.reference().image;
-  text << settings << ' ' << image.cols << ' ' << image.rows << ' ' << image.type() << ' '
-       << light_field.reference_index;
+  Signature signature{settings, image.size(), image.type(), light_field.reference_index, {}, {}};
   for (const View& view : light_field.views)
   {
-    text << ' ' << view.steps.x << ' ' << view.steps.y << ' ' << view.offset_px.x << ' ' << view.offset_px.y;
+    signature.steps.push_back(view.steps);
+    signature.offsets_px.push_back(view.offset_px);
   }
-  return text.str();
+  return signature;
 }
 
-}  // namespace
-
-const SceneMeasures* Sequence::follow(const LightField& light_field, const std::string& settings)
+bool Sequence::agree(const Signature& left, const Signature& right)
 {
-  std::string signature = signatureOf(light_field, settings);
-  const bool follows = unbroken_ && signature == signature_;
+  const std::optional<DisparityRange>& left_range = left.settings.disparity_range;
+  const std::optional<DisparityRange>& right_range = right.settings.disparity_range;
+  const bool same_range =
+      left_range.has_value() == right_range.has_value() &&
+      (!left_range || (left_range->min == right_range->min && left_range->max == right_range->max));
+  return same_range && left.settings.options == right.settings.options && left.size == right.size &&
+         left.type == right.type && left.reference_index == right.reference_index &&
+         left.steps == right.steps && left.offsets_px == right.offsets_px;
+}
+
+const SceneMeasures* Sequence::follow(const LightField& light_field, const FrameSettings& settings)
+{
+  Signature signature = signatureOf(light_field, settings);
+  const bool follows = unbroken_ && agree(signature, signature_);
   unbroken_ = false;
   signature_ = std::move(signature);
   return follows ? &measures_ : nullptr;

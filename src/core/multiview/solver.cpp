@@ -1,8 +1,8 @@
-#include "light_field_depth/core/multiview/solver.h"
+#include "core/multiview/solver.h"
 
 #include <algorithm>
 
-#include "light_field_depth/core/multiview/confidence.h"
+#include "core/multiview/maps/confidence.h"
 
 namespace light_field_depth::multiview
 {
@@ -18,7 +18,7 @@ constexpr int FOLLOWED_REACH_PX = 12;
 constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
 /// Distance of the labels that SolverSettings::paths is meant for.
 constexpr float UNIT_LABEL_STEP_PX = 0.125F;
-constexpr int LARGEST_STEP = 12000;
+constexpr int MAX_STEP = 12000;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
 
@@ -32,8 +32,10 @@ void save(const RunContext& context, const char* name, const cv::Mat& values)
 
 PathSettings lastPaths(PathSettings paths, const SolverSettings& settings)
 {
-  paths.small_step = cvRound(settings.last_small_step_share * static_cast<float>(paths.small_step));
-  paths.large_step = cvRound(settings.last_large_step_share * static_cast<float>(paths.large_step));
+  paths.small_change_penalty =
+      cvRound(settings.last_small_change_share * static_cast<float>(paths.small_change_penalty));
+  paths.large_change_penalty =
+      cvRound(settings.last_large_change_share * static_cast<float>(paths.large_change_penalty));
   return paths;
 }
 
@@ -65,10 +67,10 @@ bool Solver::solve(const SolverSettings& settings, SearchIn where, RunContext& c
   {
     return false;
   }
-  if (settings.decide_edge_sides)
+  if (settings.decide_boundary_pixels)
   {
     const StageTimer timer(context, "edge sides");
-    decideEdgeSides(guide(), settings.edge_sides, context.pool, disparity_, scratch_);
+    decideBoundaryPixels(guide(), settings.boundary_pixels, context.pool, disparity_, scratch_);
   }
   disparity_.copyTo(searched_);
   save(context, "multiview_searched", searched_);
@@ -82,8 +84,9 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
   const StageTimer timer(context, "prepare");
   labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
   paths_ = settings.paths;
-  const float small_step = static_cast<float>(paths_.small_step) * labels_.step_px / UNIT_LABEL_STEP_PX;
-  paths_.small_step = cvRound(small_step);
+  const float small_change_penalty =
+      static_cast<float>(paths_.small_change_penalty) * labels_.step_px / UNIT_LABEL_STEP_PX;
+  paths_.small_change_penalty = cvRound(small_change_penalty);
   ViewSetSettings view_settings;
   view_settings.grey = settings.grey_search;
   view_settings.blur_sigma_px = settings.blur_sigma_px;
@@ -112,7 +115,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
   }
   setPaths(paths_, context);
   aggregate(settings, context);
-  if (settings.watch_scene && !acceptFirstMap(settings, where, context))
+  if (settings.detect_changes && !acceptFirstMap(settings, where, context))
   {
     return false;
   }
@@ -151,8 +154,8 @@ void Solver::setPaths(const PathSettings& paths, RunContext& context)
   const StageTimer timer(context, "aggregate");
   paths_ = paths;
   // Sixteen bits hold the sums of the paths.
-  paths_.small_step = std::clamp(paths_.small_step, 1, LARGEST_STEP);
-  paths_.large_step = std::clamp(paths_.large_step, 1, LARGEST_STEP);
+  paths_.small_change_penalty = std::clamp(paths_.small_change_penalty, 1, MAX_STEP);
+  paths_.large_change_penalty = std::clamp(paths_.large_change_penalty, 1, MAX_STEP);
   aggregator_.setGuide(guide(), paths_, context.pool);
 }
 
@@ -168,7 +171,7 @@ bool Solver::computeFirstCosts(const SolverSettings& settings, const CostSetting
   {
     bands_.setAround(disparity_, labels_, FOLLOWED_REACH_PX, FOLLOWED_MARGIN_LABELS, context.pool);
   }
-  if (!settings.watch_scene)
+  if (!settings.detect_changes)
   {
     cost_builder_.buildFromArms(views_, labels_, bands_, cost, context.pool, volume_);
     return true;

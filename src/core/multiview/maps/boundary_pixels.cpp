@@ -1,0 +1,202 @@
+#include "core/multiview/maps/boundary_pixels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/multiview/maps/window_extent.h"
+
+namespace light_field_depth::multiview
+{
+namespace
+{
+constexpr int RADIUS = 2;
+constexpr int ROWS_PER_CHUNK = 32;
+/// Weight of pixels that stand at the edge themselves: their colours are mixed.
+constexpr float EDGE_WEIGHT = 0.02F;
+
+using Colour = std::array<float, 3>;
+
+Colour colourAt(const PlanarImage& image, int x, int y)
+{
+  Colour colour{};
+  const std::uint8_t* const row = image.row(y) + x;
+  for (std::size_t c = 0; c < colour.size(); ++c)
+  {
+    const std::size_t channel = image.channels() == 1 ? 0 : c;
+    colour[c] = static_cast<float>(row[channel * image.channelStride()]);
+  }
+  return colour;
+}
+
+/// Weighted colour statistics of one side of an edge.
+struct Side
+{
+  float weight = 0.0F;
+  Colour sum{};
+  Colour squares{};
+  float disparity_weight = 0.0F;
+  float disparity_sum = 0.0F;
+
+  void add(const Colour& colour, float colour_weight, float disparity, float distance_weight)
+  {
+    weight += colour_weight;
+    for (std::size_t c = 0; c < colour.size(); ++c)
+    {
+      sum[c] += colour_weight * colour[c];
+      squares[c] += colour_weight * colour[c] * colour[c];
+    }
+    disparity_weight += distance_weight;
+    disparity_sum += distance_weight * disparity;
+  }
+  Colour mean() const { return {sum[0] / weight, sum[1] / weight, sum[2] / weight}; }
+  float disparity() const { return disparity_sum / disparity_weight; }
+  /// Standard deviation, summed over the channels.
+  float spread() const
+  {
+    const Colour centre = mean();
+    float total = 0.0F;
+    for (std::size_t c = 0; c < centre.size(); ++c)
+    {
+      total += std::sqrt(std::max(0.0F, squares[c] / weight - centre[c] * centre[c]));
+    }
+    return total;
+  }
+};
+
+class BoundaryPixelDecision
+{
+public:
+  BoundaryPixelDecision(const PlanarImage& image, const cv::Mat& disparity,
+                        const BoundaryPixelSettings& settings)
+      : image_(image), disparity_(disparity), settings_(settings)
+  {
+  }
+
+  /// The disparity that pixel (x, y) should have, at least RADIUS + 1 pixels inside the image.
+  /// @param low, high of the disparities in 3 x 3 pixels
+  float decide(int x, int y, float low, float high) const
+  {
+    const float here = disparity_.at<float>(y, x);
+    const float middle = 0.5F * (low + high);
+    if (high - low < settings_.min_jump_px || here <= middle)
+    {
+      return here;
+    }
+    Side near;
+    Side far;
+    collect(x, y, middle, near, far);
+    return isBackground(colourAt(image_, x, y), near, far) ? far.disparity() : here;
+  }
+
+private:
+  void range(int x, int y, float& low, float& high) const
+  {
+    low = high = disparity_.at<float>(y, x);
+    for (int dy = -1; dy <= 1; ++dy)
+    {
+      const auto* const row = disparity_.ptr<float>(y + dy) + x;
+      low = std::min({low, row[-1], row[0], row[1]});
+      high = std::max({high, row[-1], row[0], row[1]});
+    }
+  }
+
+  bool touchesOtherSide(int x, int y, float middle) const
+  {
+    float low = 0.0F;
+    float high = 0.0F;
+    range(x, y, low, high);
+    return low <= middle && high > middle;
+  }
+
+  void collect(int x, int y, float middle, Side& near, Side& far) const
+  {
+    for (int dy = -RADIUS; dy <= RADIUS; ++dy)
+    {
+      for (int dx = -RADIUS; dx <= RADIUS; ++dx)
+      {
+        if (dx == 0 && dy == 0)
+        {
+          continue;
+        }
+        const float disparity = disparity_.at<float>(y + dy, x + dx);
+        const float distance_weight = 1.0F / static_cast<float>(dx * dx + dy * dy);
+        const float colour_weight =
+            distance_weight * (touchesOtherSide(x + dx, y + dy, middle) ? EDGE_WEIGHT : 1.0F);
+        Side& side = disparity > middle ? near : far;
+        side.add(colourAt(image_, x + dx, y + dy), colour_weight, disparity, distance_weight);
+      }
+    }
+  }
+
+  bool isBackground(const Colour& colour, const Side& near, const Side& far) const
+  {
+    if (near.weight <= 0.0F || far.weight <= 0.0F)
+    {
+      return false;
+    }
+    const Colour foreground = near.mean();
+    const Colour background = far.mean();
+    float contrast = 0.0F;
+    float along = 0.0F;
+    float norm = 0.0F;
+    for (std::size_t c = 0; c < colour.size(); ++c)
+    {
+      const float difference = foreground[c] - background[c];
+      contrast += std::abs(difference);
+      along += (colour[c] - background[c]) * difference;
+      norm += difference * difference;
+    }
+    if (contrast < settings_.min_contrast)
+    {
+      return false;
+    }
+    const float share = along / norm;
+    float residual = 0.0F;
+    for (std::size_t c = 0; c < colour.size(); ++c)
+    {
+      residual += std::abs(colour[c] - background[c] - share * (foreground[c] - background[c]));
+    }
+    return near.spread() + residual <= settings_.max_relative_spread * contrast &&
+           share < settings_.min_foreground_share;
+  }
+
+  const PlanarImage& image_;
+  const cv::Mat& disparity_;
+  const BoundaryPixelSettings& settings_;
+};
+
+}  // namespace
+
+void decideBoundaryPixels(const PlanarImage& image, const BoundaryPixelSettings& settings, ThreadPool& pool,
+                          cv::Mat& disparity, cv::Mat& scratch)
+{
+  constexpr int margin = RADIUS + 1;
+  disparity.copyTo(scratch);
+  const BoundaryPixelDecision decision(image, scratch, settings);
+  pool.parallelFor(margin, disparity.rows - margin, ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     std::vector<float> columns(extentScratch(disparity.cols));
+                     std::vector<float> low(static_cast<std::size_t>(disparity.cols));
+                     std::vector<float> high(low);
+                     for (int y = first; y < last; ++y)
+                     {
+                       ExtentRow extents = extentRowOf(scratch, y, 1);
+                       extents.columns = columns.data();
+                       extents.low = low.data();
+                       extents.high = high.data();
+                       findExtents(extents);
+                       auto* const row = disparity.ptr<float>(y);
+                       for (int x = margin; x < disparity.cols - margin; ++x)
+                       {
+                         const auto at = static_cast<std::size_t>(x);
+                         row[x] = decision.decide(x, y, low[at], high[at]);
+                       }
+                     }
+                   });
+}
+
+}  // namespace light_field_depth::multiview

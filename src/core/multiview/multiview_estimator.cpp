@@ -1,0 +1,343 @@
+#include "core/multiview/multiview_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "core/light_field/half_resolution.h"
+#include "core/light_field/view_set.h"
+#include "core/multiview/maps/upsampling.h"
+#include "core/multiview/maps/view_maps.h"
+#include "core/multiview/noise.h"
+#include "core/multiview/sequence.h"
+#include "core/multiview/solver.h"
+#include "core/preprocess/even_exposure.h"
+#include "light_field_depth/core/disparity_range.h"
+#include "light_field_depth/core/exposure.h"
+#include "light_field_depth/core/noise_estimate.h"
+
+namespace light_field_depth
+{
+namespace
+{
+using multiview::SceneMeasures;
+using multiview::SolverSettings;
+
+/// The settings are meant for this distance of the outermost view, in grid steps.
+constexpr double REFERENCE_BASELINE = 4.0;
+/// Above this many pixels the search goes from coarse to fine.
+constexpr int LARGE_PIXELS = 1'000'000;
+/// With at most this many views in the row and column of the reference, all views are used.
+constexpr int FEW_VIEWS = 6;
+
+/// Smaller views are not halved.
+constexpr int MIN_HALVED_SIDE_PX = 32;
+/// Of half the resolution: smaller views are not halved again to measure the scene.
+constexpr int MIN_QUARTERED_SIDE_PX = 96;
+constexpr int FAST_VIEWS_PER_ARM = 3;
+/// So few views are measured at half the resolution in no time. They stand far apart more often than others,
+/// and a range that is wider than it has to be lets repeated patterns match a period too far.
+constexpr std::size_t MAX_VIEWS_MEASURED_AT_HALF_RESOLUTION = 9;
+/// The searches for exposure and range halve larger views at least once, each for itself.
+constexpr int MIN_LONGER_SIDE_MEASURED_HALVED_PX = 384;
+constexpr int MIN_SHORTER_SIDE_MEASURED_HALVED_PX = 64;
+
+bool isMeasuredHalved(const cv::Size& size)
+{
+  return std::max(size.width, size.height) >= MIN_LONGER_SIDE_MEASURED_HALVED_PX &&
+         std::min(size.width, size.height) >= MIN_SHORTER_SIDE_MEASURED_HALVED_PX;
+}
+
+bool isLarge(const LightField& light_field)
+{
+  return light_field.size().area() > LARGE_PIXELS;
+}
+
+LightField chosenViews(const LightField& light_field, ViewSelection selection)
+{
+  if (selection != ViewSelection::Auto)
+  {
+    return selectViews(light_field, selection);
+  }
+  const GridPosition centre = light_field.reference().grid;
+  const auto on_cross = std::count_if(
+      light_field.views.begin(), light_field.views.end(),
+      [&](const View& view) { return view.grid.row == centre.row || view.grid.column == centre.column; });
+  return on_cross > FEW_VIEWS ? selectViews(light_field, ViewSelection::Cross) : light_field;
+}
+
+/// Pixels of disparity of the solver in one of the light field: with the solver's, the outermost view has
+/// REFERENCE_BASELINE.
+double solverUnit(const LightField& light_field)
+{
+  double widest = 0.0;
+  for (const View& view : light_field.views)
+  {
+    widest = std::max({widest, std::abs(view.steps.x), std::abs(view.steps.y)});
+  }
+  return widest / REFERENCE_BASELINE;
+}
+
+/// The light field with the solver's unit of disparity.
+LightField inSolverUnit(LightField light_field, double unit)
+{
+  for (View& view : light_field.views)
+  {
+    view.steps *= 1.0 / unit;
+  }
+  return light_field;
+}
+
+/// @param unit from solverUnit()
+SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures& measures, double unit)
+{
+  const MultiviewOptions options = withPresetNumbers(given);
+  SolverSettings settings;
+  settings.range = {static_cast<float>(measures.range.min * unit),
+                    static_cast<float>(measures.range.max * unit)};
+  settings.label_step_px = options.label_step_px;
+  settings.grey_search =
+      options.preset == MultiviewPreset::Realtime || options.preset == MultiviewPreset::Fast;
+  settings.paths.small_change_penalty = options.small_change_penalty;
+  settings.paths.large_change_penalty = options.large_change_penalty;
+  settings.visibility_passes = options.visibility_passes;
+  settings.fuse_background = options.background_fusion && !settings.grey_search;
+  settings.keep_thin_structures = options.thin_structures;
+  settings.decide_boundary_pixels = options.boundary_pixels;
+  settings.refinements = options.refinements;
+  settings.linearization.brightness_slope = options.brightness_slope;
+  settings.smoothing.strength = options.refinement_smoothness;
+  settings.detect_changes = options.temporal;
+  adaptToNoise(measures.noise_sigma, settings);
+  return settings;
+}
+
+}  // namespace
+
+/// What is kept from frame to frame.
+struct MultiviewEstimator::Buffers
+{
+  multiview::Sequence sequence;
+  multiview::Solver solver;
+  multiview::HalfResolution half;
+  multiview::HalfResolution measured_half;
+  multiview::HalfResolution quarter;
+  multiview::HalfResolution coarse_half;
+  multiview::Solver coarse_solver;
+  std::vector<ViewDisparity> view_maps;
+};
+
+MultiviewEstimator::MultiviewEstimator(MultiviewOptions options)
+    : options_(options), buffers_(std::make_unique<Buffers>())
+{
+}
+
+MultiviewEstimator::~MultiviewEstimator() = default;
+
+DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, const EstimateRequest& request,
+                                               RunContext& context)
+{
+  const LightField chosen = toEightBit(chosenViews(light_field, request.views));
+  const bool halved = options_.preset == MultiviewPreset::Fast &&
+                      std::min(chosen.size().width, chosen.size().height) >= MIN_HALVED_SIDE_PX;
+  DisparityEstimate estimate;
+  if (halved)
+  {
+    const LightField half = reduced(chosen, context);
+    solve(half, request, context, estimate);
+    estimate.views_used = half.views.size();
+    upsample(chosen.reference().image, context, estimate);
+  }
+  else
+  {
+    solve(chosen, request, context, estimate);
+    estimate.views_used = chosen.views.size();
+  }
+  if (request.view_disparities)
+  {
+    const StageTimer timer(context, "view maps");
+    multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool,
+                           buffers_->view_maps);
+    estimate.view_disparities = buffers_->view_maps;
+  }
+  return estimate;
+}
+
+LightField MultiviewEstimator::reduced(const LightField& chosen, RunContext& context)
+{
+  const StageTimer timer(context, "halve");
+  return buffers_->half.reduce(multiview::withThinnedArms(chosen, FAST_VIEWS_PER_ARM), context.pool);
+}
+
+void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& request, RunContext& context,
+                               DisparityEstimate& estimate)
+{
+  if (!options_.temporal)
+  {
+    buffers_->sequence.forget();  // no later frame may follow what the solver is going to hold
+  }
+  else if (follow(views, request, context, estimate))
+  {
+    return;
+  }
+  SceneMeasures measures;
+  const LightField chosen = options_.preset == MultiviewPreset::Fast
+                                ? measureQuickly(views, request, context, measures)
+                                : measure(views, request, context, measures);
+  const double unit = solverUnit(chosen);
+  const bool large = isLarge(chosen);
+  if (large)
+  {
+    solveCoarseToFine(chosen, measures, context);
+  }
+  else
+  {
+    const SolverSettings settings = solverSettings(options_, measures, unit);
+    buffers_->solver.run(inSolverUnit(chosen, unit), settings, context);
+  }
+  estimate.range = measures.range;
+  keepResult(unit, estimate);
+  if (options_.temporal && !large)
+  {
+    buffers_->sequence.begin(std::move(measures));
+  }
+}
+
+/// @return the views, made equal in exposure
+LightField MultiviewEstimator::measure(const LightField& views, const EstimateRequest& request,
+                                       RunContext& context, SceneMeasures& measures)
+{
+  const bool halved = isMeasuredHalved(views.size());
+  DisparityRangeOptions range_options;
+  range_options.max_displacement_px *= halved ? 0.5F : 1.0F;
+  LightField chosen;
+  LightField small;
+  {
+    const StageTimer timer(context, "exposure");
+    small = halved ? buffers_->measured_half.reduceInColour(views, context.pool) : views;
+    measures.exposures = estimateExposure(small, context.pool, range_options.max_displacement_px);
+    chosen = compensateExposure(views, measures.exposures, context.pool);
+  }
+  {
+    const StageTimer timer(context, "range");
+    measures.range = request.disparity_range
+                         ? *request.disparity_range
+                         : findDisparityRange(compensateExposure(small, measures.exposures, context.pool),
+                                              context.pool, range_options);
+  }
+  const StageTimer timer(context, "noise");
+  measures.noise_sigma = estimateNoise(chosen.reference().image);
+  return chosen;
+}
+
+/// The same from views of a quarter of the resolution, and without a search for small differences in
+/// exposure, where there are many views.
+/// @param views of half the resolution
+LightField MultiviewEstimator::measureQuickly(const LightField& views, const EstimateRequest& request,
+                                              RunContext& context, SceneMeasures& measures)
+{
+  const cv::Size size = views.size();
+  if (std::min(size.width, size.height) < MIN_QUARTERED_SIDE_PX ||
+      views.views.size() <= MAX_VIEWS_MEASURED_AT_HALF_RESOLUTION)
+  {
+    return measure(views, request, context, measures);
+  }
+  LightField chosen = views;
+  LightField quarter;
+  measures.exposures.resize(views.views.size());
+  {
+    const StageTimer timer(context, "exposure");
+    quarter = buffers_->quarter.reduce(views, context.pool);
+    if (!multiview::looksEvenlyExposed(quarter))
+    {
+      measures.exposures = estimateExposure(views, context.pool);
+      chosen = compensateExposure(views, measures.exposures, context.pool);
+      quarter = buffers_->quarter.reduce(chosen, context.pool);
+    }
+  }
+  {
+    const StageTimer timer(context, "range");
+    DisparityRangeOptions range_options;
+    range_options.max_displacement_px *= 0.25F;
+    measures.range = request.disparity_range ? *request.disparity_range
+                                             : findDisparityRange(quarter, context.pool, range_options);
+  }
+  const StageTimer timer(context, "noise");
+  measures.noise_sigma = estimateNoise(chosen.reference().image);
+  return chosen;
+}
+
+/// All labels at half the resolution, and those about the result at the full one: the memory of a large light
+/// field does not grow with its labels.
+void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const SceneMeasures& measures,
+                                           RunContext& context)
+{
+  MultiviewOptions options = withPresetNumbers(options_);
+  options.temporal = false;
+  MultiviewOptions coarse_options = options;
+  coarse_options.refinements = std::min(options.refinements, 1);
+  const LightField half = buffers_->coarse_half.reduce(chosen, context.pool);
+  const double half_unit = solverUnit(half);
+  multiview::Solver& coarse_solver = buffers_->coarse_solver;
+  coarse_solver.run(inSolverUnit(half, half_unit), solverSettings(coarse_options, measures, half_unit),
+                    context);
+  DisparityEstimate coarse;
+  coarse_solver.disparity().convertTo(coarse.disparity, CV_32F, 1.0 / half_unit);
+  coarse.confidence = coarse_solver.confidence();
+  upsample(chosen.reference().image, context, coarse);
+  const double unit = solverUnit(chosen);
+  buffers_->solver.runNear(inSolverUnit(chosen, unit), solverSettings(options, measures, unit),
+                           coarse.disparity * unit, context);
+}
+
+/// The frame with what was measured on the last one that was searched in full.
+/// @return false if it does not follow, or shows another scene
+bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& request, RunContext& context,
+                                DisparityEstimate& estimate)
+{
+  const SceneMeasures* const measures = buffers_->sequence.follow(views, {options_, request.disparity_range});
+  if (measures == nullptr)
+  {
+    return false;
+  }
+  SceneMeasures here = *measures;
+  LightField chosen;
+  {
+    const StageTimer timer(context, "exposure");
+    chosen = compensateExposure(views, here.exposures, context.pool);
+  }
+  {
+    const StageTimer timer(context, "noise");
+    here.noise_sigma = estimateNoise(chosen.reference().image);
+  }
+  const double unit = solverUnit(chosen);
+  if (!buffers_->solver.follow(inSolverUnit(chosen, unit), solverSettings(options_, here, unit), context))
+  {
+    return false;
+  }
+  estimate.range = here.range;
+  keepResult(unit, estimate);
+  buffers_->sequence.keep();
+  return true;
+}
+
+void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) const
+{
+  buffers_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
+  estimate.confidence = buffers_->solver.confidence().clone();
+}
+
+void MultiviewEstimator::upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate)
+{
+  const StageTimer timer(context, "upsample");
+  cv::Mat disparity;
+  cv::Mat confidence;
+  multiview::upsample(estimate.disparity, estimate.confidence, image, {}, context.pool, disparity,
+                      confidence);
+  estimate.disparity = disparity;
+  estimate.confidence = confidence;
+}
+
+}  // namespace light_field_depth

@@ -1,0 +1,54 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_MULTIVIEW_ESTIMATOR_H
+#define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_MULTIVIEW_ESTIMATOR_H
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "light_field_depth/core/estimator.h"
+#include "light_field_depth/core/multiview_options.h"
+
+namespace light_field_depth
+{
+namespace multiview
+{
+struct SceneMeasures;
+}  // namespace multiview
+
+/// Solves the views of a light field together: truncated matching costs over arms of views, four-path
+/// aggregation, explicit visibility, a decision on edge pixels by colour, and a refinement that linearises
+/// all views at once. Works on any array of views.
+class MultiviewEstimator : public Estimator
+{
+public:
+  explicit MultiviewEstimator(MultiviewOptions options = {});
+  ~MultiviewEstimator() override;
+
+  void setOptions(const MultiviewOptions& options) { options_ = options; }
+
+  DisparityEstimate estimate(const LightField& light_field, const EstimateRequest& request,
+                             RunContext& context) override;
+
+private:
+  struct Buffers;
+  LightField reduced(const LightField& chosen, RunContext& context);
+  void solve(const LightField& views, const EstimateRequest& request, RunContext& context,
+             DisparityEstimate& estimate);
+  LightField measure(const LightField& views, const EstimateRequest& request, RunContext& context,
+                     multiview::SceneMeasures& measures);
+  LightField measureQuickly(const LightField& views, const EstimateRequest& request, RunContext& context,
+                            multiview::SceneMeasures& measures);
+  bool follow(const LightField& views, const EstimateRequest& request, RunContext& context,
+              DisparityEstimate& estimate);
+  void solveCoarseToFine(const LightField& chosen, const multiview::SceneMeasures& measures,
+                         RunContext& context);
+  void keepResult(double unit, DisparityEstimate& estimate) const;
+  void upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate);
+
+  MultiviewOptions options_;
+  std::unique_ptr<Buffers> buffers_;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_MULTIVIEW_ESTIMATOR_H

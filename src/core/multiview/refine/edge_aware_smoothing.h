@@ -1,0 +1,50 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_EDGE_AWARE_SMOOTHING_H
+#define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_EDGE_AWARE_SMOOTHING_H
+
+#include <opencv2/core.hpp>
+
+#include "core/base/scratch_pool.h"
+#include "core/light_field/view_set.h"
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth::multiview
+{
+struct SmoothingSettings
+{
+  float strength = 200.0F;          ///< alpha, against the curvature of the data
+  float image_edge_decay = 100.0F;  ///< kappa: links weaken by exp(-kappa * change of colour / 765)
+  float flat_px = 0.015F;           ///< eps: changes of the disparity above this are charged linearly
+  int reweightings = 2;
+  int sweeps = 2;
+};
+
+/// Minimises  sum_p w_p (d_p - t_p)^2 + sum_pq s_pq(d) (d_p - d_q)^2  over 4-neighbours by reweighted
+/// least squares, lines solved exactly, rows and columns in turn. Keeps its memory; one call at a time.
+class EdgeAwareSmoother
+{
+public:
+  EdgeAwareSmoother();
+  ~EdgeAwareSmoother();
+
+  /// Computes the part of the links that the image decides.
+  void setGuide(const PlanarImage& guide, const SmoothingSettings& settings, ThreadPool& pool);
+
+  /// @param weight, target CV_32FC1  @param disparity CV_32FC1: start and result
+  void run(const cv::Mat& weight, const cv::Mat& target, const SmoothingSettings& settings, ThreadPool& pool,
+           cv::Mat& disparity);
+
+private:
+  struct Scratch;
+  class Sweep;
+
+  cv::Mat guide_left_;   // link strength between (x - 1, y) and (x, y) from the image
+  cv::Mat guide_above_;  // between (x, y - 1) and (x, y)
+  cv::Mat link_left_;    // with the disparity's part; one more column, and 0 at both ends
+  cv::Mat link_above_;   // one more row, and 0 in the first and the last
+  cv::Mat solution_;
+  ScratchPool<Scratch> scratch_;
+};
+
+}  // namespace light_field_depth::multiview
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_EDGE_AWARE_SMOOTHING_H

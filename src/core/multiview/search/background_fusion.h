@@ -1,0 +1,87 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_SEARCH_BACKGROUND_FUSION_H
+#define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_SEARCH_BACKGROUND_FUSION_H
+
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "core/multiview/search/cost_volume.h"
+#include "core/multiview/search/label_space.h"
+#include "core/multiview/search/path_aggregation.h"
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth::multiview
+{
+/// What a second search that prefers the background may change. Costs in the units of FULL_COST.
+struct BackgroundSettings
+{
+  float bias_per_px = 12.0F;  ///< charge for a label nearer than the floor
+  int max_bias = 48;          ///< of that charge
+  float support_distance_px = 0.25F;
+  float min_support = 12.0F;  ///< how much a label must be better than those at that distance to be believed
+  float floor_quantile = 0.05F;  ///< of the believed labels about a block: nothing is taken to be farther
+  float min_drop_px = 0.15F;     ///< smaller differences of the two searches are left alone
+  float accepted_energy = 0.9F;  ///< a region moves back only if its energy falls below this share,
+  float max_data_rise = 0.25F;   ///< its matching cost rises by less than this share of itself,
+  float max_cost_rise = 4.0F;    ///< and by less than this a pixel
+  float hold_per_px = 16.0F;     ///< charge in later searches for leaving the background
+  float hold_slack_px = 0.375F;  ///< that are free of it
+  int max_hold = 20;             ///< of that charge
+};
+
+/// Moves textureless regions back to the background. A contour moves with its nearer side, so a region
+/// without texture belongs to the farthest of its borders; a search that only asks for smoothness may leave
+/// it at any of them. A second search is made with costs that grow towards the viewer, down to a floor of
+/// what the images really support nearby. Connected regions that it places farther are taken over where that
+/// lowers the energy of the first search, a fusion move. Keeps its memory; one call at a time.
+class BackgroundFusion
+{
+public:
+  /// Before the second search: finds the floor and adds the charges to the volume.
+  /// @param disparity CV_32FC1, px, the first search
+  void prepare(const LabelSpace& labels, const cv::Mat& disparity, const BackgroundSettings& settings,
+               ThreadPool& pool, CostVolume& volume);
+
+  /// After it: takes over the regions whose energy falls.
+  /// @param volume as prepare() left it
+  /// @param background CV_32FC1, px, the second search
+  /// @param disparity the first search on entry, the fused map on return
+  void fuse(const CostVolume& volume, const PathAggregator& paths, const PathSettings& path_settings,
+            const cv::Mat& background, ThreadPool& pool, cv::Mat& disparity);
+
+  /// Charges in a later volume for labels nearer than what was moved back.
+  void hold(ThreadPool& pool, CostVolume& volume) const;
+
+private:
+  struct Region;
+  void countBelieved(const cv::Mat& disparity, const CostVolume& volume, ThreadPool& pool);
+  void countBelieved(int tile_column, int y, int threshold, const CostVolume& volume, int* counts);
+  void chooseFloors(int block_y, int labels);
+  void chargeBlock(int block_x, int block_y, const std::vector<std::uint8_t>& charge,
+                   CostVolume& volume) const;
+  bool markFarther(const cv::Mat& background, ThreadPool& pool, const cv::Mat& disparity);
+  template <class Body>
+  void forFarther(const Body& body) const;
+  bool isRowMarked(int y) const { return marked_rows_[static_cast<std::size_t>(y)] != 0; }
+  void addData(const CostVolume& volume, const cv::Mat& background, std::vector<Region>& regions) const;
+  void addLinks(const PathAggregator& paths, const PathSettings& settings, const cv::Mat& background,
+                std::vector<Region>& regions) const;
+  std::size_t regionAt(int x, int y) const { return static_cast<std::size_t>(regions_.at<int>(y, x)); }
+  float biasAt(int x, int y, float label) const;
+
+  LabelSpace labels_;
+  BackgroundSettings settings_;
+  cv::Mat label_;              // CV_32FC1 of the first search
+  cv::Mat data_cost_;          // CV_32FC1 of the first search, without charges
+  std::vector<int> believed_;  // pixels with a believed label: [row of tiles][column of blocks][label]
+  cv::Mat floor_;              // CV_16SC1, one element a block
+  cv::Mat moved_;              // CV_16SC1: the label that a pixel was moved to, or -1
+  cv::Mat farther_;            // CV_8UC1: 1 where the second search is farther
+  std::vector<std::uint8_t> marked_rows_;  // of these: whether a row has any
+  cv::Mat regions_;                        // CV_32SC1
+};
+
+}  // namespace light_field_depth::multiview
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_SEARCH_BACKGROUND_FUSION_H

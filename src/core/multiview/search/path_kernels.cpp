@@ -1,0 +1,279 @@
+// Compiled once for each instruction set; the best one is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/multiview/search/path_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/multiview/search/path_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace light_field_depth::multiview
+{
+namespace HWY_NAMESPACE
+{
+#if HWY_TARGET == HWY_SCALAR
+// A processor without any of the known vector instructions.
+void stepRowSimd(const StepRow& row)
+{
+  stepRowPlain(row);
+}
+
+void aggregateTileSimd(const PathTile& tile)
+{
+  aggregateTilePlain(tile);
+}
+
+void transposeBytesSimd(const std::uint8_t* source, int labels, std::uint8_t* target)
+{
+  transposeTilePlain(source, labels, target);
+}
+
+void transposeWordsSimd(const std::uint16_t* source, int labels, std::uint16_t* target)
+{
+  transposeTilePlain(source, labels, target);
+}
+
+void selectLabelsSimd(const std::uint16_t* sums, int labels, int first_label, float* best)
+{
+  selectLabelsPlain(sums, labels, first_label, best);
+}
+#else
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Words = hn::CappedTag<std::uint16_t, TILE_PX>;
+using WordBytes = hn::Rebind<std::uint8_t, Words>;
+using Vector = hn::Vec<Words>;
+
+void stepRowSimd(const StepRow& row)
+{
+  const Words words;
+  const hn::Half<Words> half_words;
+  const hn::Repartition<std::int32_t, Words> integers;
+  const hn::Repartition<float, Words> floats;
+  const auto steps = [&](hn::Vec<hn::Half<Words>> change) HWY_ATTR
+  {
+    const auto divisor =
+        hn::Add(hn::Set(floats, 1.0F), hn::ConvertTo(floats, hn::PromoteTo(integers, change)));
+    const auto step = hn::Max(hn::Set(floats, row.min_large_change_penalty),
+                              hn::Div(hn::Set(floats, row.large_change_penalty), divisor));
+    return hn::DemoteTo(half_words, hn::ConvertTo(integers, hn::Add(step, hn::Set(floats, 0.5F))));
+  };
+  for (int x = 0; x < row.width; x += static_cast<int>(hn::Lanes(words)))
+  {
+    const auto change = hn::LoadU(words, row.steps + x);
+    hn::StoreU(hn::Combine(words, steps(hn::UpperHalf(half_words, change)),
+                           steps(hn::LowerHalf(half_words, change))),
+               words, row.steps + x);
+  }
+}
+
+/// All labels of some paths in one line.
+template <bool ADD>
+HWY_INLINE void lineStep(const std::uint8_t* cost, int labels, Vector small_change_penalty,
+                         const std::uint16_t* large_change_penalty, std::uint16_t* state,
+                         std::uint16_t* minima, std::uint16_t* sums)
+{
+  const Words words;
+  const WordBytes bytes;
+  const auto before_minimum = hn::LoadU(words, minima);
+  const auto jump = hn::Add(before_minimum, hn::LoadU(words, large_change_penalty));
+  auto least = hn::Set(words, NO_STATE);
+  auto below = least;
+  auto here = hn::LoadU(words, state);
+  for (int label = 0; label < labels; ++label)
+  {
+    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(label) * TILE_PX;
+    const auto above = hn::LoadU(words, state + offset + TILE_PX);
+    const auto neighbour = hn::SaturatedAdd(hn::Min(below, above), small_change_penalty);
+    const auto best = hn::Min(hn::Min(here, jump), neighbour);
+    const auto data = hn::PromoteTo(words, hn::LoadU(bytes, cost + offset));
+    const auto value = hn::Add(data, hn::Sub(best, before_minimum));
+    hn::StoreU(value, words, state + offset);
+    least = hn::Min(least, value);
+    hn::StoreU(ADD ? hn::Add(value, hn::LoadU(words, sums + offset)) : value, words, sums + offset);
+    below = here;
+    here = above;
+  }
+  hn::StoreU(least, words, minima);
+}
+
+template <bool ADD>
+HWY_INLINE void aggregateLines(const PathTile& tile)
+{
+  const Words words;
+  const auto small_change_penalty = hn::Set(words, tile.small_change_penalty);
+  const int lanes = static_cast<int>(hn::Lanes(words));
+  const std::ptrdiff_t line_size = static_cast<std::ptrdiff_t>(tile.labels) * TILE_PX;
+  for (int step = 0; step < tile.lines; ++step)
+  {
+    const int line = tile.backward ? tile.lines - 1 - step : step;
+    for (int i = 0; i < TILE_PX; i += lanes)
+    {
+      lineStep<ADD>(tile.cost + line * line_size + i, tile.labels, small_change_penalty,
+                    tile.large_change_penalty + line * tile.large_change_stride + i, tile.state + i,
+                    tile.minima + i, tile.sums + line * line_size + i);
+    }
+  }
+}
+
+void aggregateTileSimd(const PathTile& tile)
+{
+  if (tile.add)
+  {
+    aggregateLines<true>(tile);
+  }
+  else
+  {
+    aggregateLines<false>(tile);
+  }
+}
+
+/// A square block of one vector a row: rows `stride` apart in the source and in the target. As many perfect
+/// shuffles as the side has bits transpose it.
+template <typename Value, std::size_t SIDE>
+HWY_INLINE void transposeBlock(const Value* source, std::ptrdiff_t stride, Value* target)
+{
+  const hn::FixedTag<Value, SIDE> tag;
+  using Row = hn::Vec<decltype(tag)>;
+  Row rows[SIDE];
+  Row mixed[SIDE];
+  for (std::size_t i = 0; i < SIDE; ++i)
+  {
+    rows[i] = hn::LoadU(tag, source + static_cast<std::ptrdiff_t>(i) * stride);
+  }
+  Row* from = rows;
+  Row* to = mixed;
+  for (std::size_t length = 1; length < SIDE; length *= 2)
+  {
+    for (std::size_t i = 0; i < SIDE / 2; ++i)
+    {
+      to[2 * i] = hn::InterleaveLower(tag, from[i], from[i + SIDE / 2]);
+      to[2 * i + 1] = hn::InterleaveUpper(tag, from[i], from[i + SIDE / 2]);
+    }
+    std::swap(from, to);
+  }
+  for (std::size_t i = 0; i < SIDE; ++i)
+  {
+    hn::StoreU(from[i], tag, target + static_cast<std::ptrdiff_t>(i) * stride);
+  }
+}
+
+template <typename Value>
+HWY_INLINE void transposeBlocks(const Value* source, int labels, Value* target)
+{
+  constexpr int side = static_cast<int>(16 / sizeof(Value));
+  const std::ptrdiff_t line_size = static_cast<std::ptrdiff_t>(labels) * TILE_PX;
+  for (int label = 0; label < labels; ++label)
+  {
+    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(label) * TILE_PX;
+    for (int line = 0; line < TILE_PX; line += side)
+    {
+      for (int i = 0; i < TILE_PX; i += side)
+      {
+        transposeBlock<Value, side>(source + line * line_size + offset + i, line_size,
+                                    target + i * line_size + offset + line);
+      }
+    }
+  }
+}
+
+void transposeBytesSimd(const std::uint8_t* source, int labels, std::uint8_t* target)
+{
+  transposeBlocks(source, labels, target);
+}
+
+void transposeWordsSimd(const std::uint16_t* source, int labels, std::uint16_t* target)
+{
+  transposeBlocks(source, labels, target);
+}
+
+void selectLabelsSimd(const std::uint16_t* sums, int labels, int first_label, float* best)
+{
+  const Words words;
+  HWY_ALIGN std::uint16_t label_of[TILE_PX];
+  HWY_ALIGN std::uint16_t least_of[TILE_PX];
+  HWY_ALIGN std::uint16_t below_of[TILE_PX];
+  HWY_ALIGN std::uint16_t above_of[TILE_PX];
+  const int lanes = static_cast<int>(hn::Lanes(words));
+  for (int i = 0; i < TILE_PX; i += lanes)
+  {
+    auto least = hn::LoadU(words, sums + i);
+    auto label_of_least = hn::Zero(words);
+    auto below = least;
+    auto above = least;
+    auto before = least;
+    auto was_better = hn::Eq(least, least);
+    for (int label = 1; label < labels; ++label)
+    {
+      const auto sum = hn::LoadU(words, sums + static_cast<std::ptrdiff_t>(label) * TILE_PX + i);
+      above = hn::IfThenElse(was_better, sum, above);
+      const auto better = hn::Lt(sum, least);
+      least = hn::Min(sum, least);
+      label_of_least =
+          hn::IfThenElse(better, hn::Set(words, static_cast<std::uint16_t>(label)), label_of_least);
+      below = hn::IfThenElse(better, before, below);
+      before = sum;
+      was_better = better;
+    }
+    hn::Store(label_of_least, words, label_of + i);
+    hn::Store(least, words, least_of + i);
+    hn::Store(below, words, below_of + i);
+    hn::Store(above, words, above_of + i);
+  }
+  for (int i = 0; i < TILE_PX; ++i)
+  {
+    const int label = label_of[i];
+    const int below = below_of[i] - least_of[i];
+    const int above = above_of[i] - least_of[i];
+    const int steeper = std::max(below, above);
+    const bool inside = label > 0 && label + 1 < labels && steeper > 0;
+    const float shift =
+        inside ? 0.5F * static_cast<float>(below - above) / static_cast<float>(steeper) : 0.0F;
+    best[i] = static_cast<float>(first_label + label) + shift;
+  }
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+}  // namespace HWY_NAMESPACE
+}  // namespace light_field_depth::multiview
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace light_field_depth::multiview
+{
+HWY_EXPORT(stepRowSimd);
+HWY_EXPORT(aggregateTileSimd);
+HWY_EXPORT(transposeBytesSimd);
+HWY_EXPORT(transposeWordsSimd);
+HWY_EXPORT(selectLabelsSimd);
+
+void stepRow(const StepRow& row)
+{
+  HWY_DYNAMIC_DISPATCH(stepRowSimd)(row);
+}
+
+void aggregateTile(const PathTile& tile)
+{
+  HWY_DYNAMIC_DISPATCH(aggregateTileSimd)(tile);
+}
+
+void transposeTile(const std::uint8_t* source, int labels, std::uint8_t* target)
+{
+  HWY_DYNAMIC_DISPATCH(transposeBytesSimd)(source, labels, target);
+}
+
+void transposeTile(const std::uint16_t* source, int labels, std::uint16_t* target)
+{
+  HWY_DYNAMIC_DISPATCH(transposeWordsSimd)(source, labels, target);
+}
+
+void selectLabels(const std::uint16_t* sums, int labels, int first_label, float* best)
+{
+  HWY_DYNAMIC_DISPATCH(selectLabelsSimd)(sums, labels, first_label, best);
+}
+
+}  // namespace light_field_depth::multiview
+#endif  // HWY_ONCE

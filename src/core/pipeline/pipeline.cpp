@@ -1,0 +1,234 @@
+#include "light_field_depth/core/pipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include "core/multiview/multiview_estimator.h"
+#include "core/paper2017/paper2017_estimator.h"
+#include "light_field_depth/core/error.h"
+#include "light_field_depth/core/geometry.h"
+
+namespace light_field_depth
+{
+namespace
+{
+constexpr std::array<std::pair<Method, const char*>, 2> METHOD_NAMES = {{
+    {Method::Multiview, "multiview"},
+    {Method::Paper2017, "paper2017"},
+}};
+
+void append(std::vector<std::string>& problems, std::vector<std::string> more)
+{
+  std::move(more.begin(), more.end(), std::back_inserter(problems));
+}
+
+void throwIfAny(const std::vector<std::string>& problems)
+{
+  if (problems.empty())
+  {
+    return;
+  }
+  std::string text;
+  for (const std::string& problem : problems)
+  {
+    text += (text.empty() ? "" : " ") + problem;
+  }
+  throw InputError(text);
+}
+
+/// Disparity at which even the nearest view has nothing of the reference view in its image any more.
+double largestVisibleDisparity(const LightField& light_field)
+{
+  const double side_px = std::max(light_field.size().width, light_field.size().height);
+  double largest_px = 0.0;
+  for (const View& view : light_field.views)
+  {
+    const double steps = std::max(std::abs(view.steps.x), std::abs(view.steps.y));
+    const double offset_px = std::max(std::abs(view.offset_px.x), std::abs(view.offset_px.y));
+    if (steps > 0.0)
+    {
+      largest_px = std::max(largest_px, (side_px + offset_px) / steps);
+    }
+  }
+  return largest_px;
+}
+
+/// Where nothing can be seen there is nothing to search, but memory and time grow with the range.
+void checkRange(const DisparityRange& range, const LightField& light_field)
+{
+  const double largest_px = largestVisibleDisparity(light_field);
+  if (range.min < -largest_px || range.max > largest_px)
+  {
+    std::ostringstream text;
+    text << "disparity_range is " << range.min << ".." << range.max << " px, but beyond " << largest_px
+         << " px either way no view shows what the reference view of " << light_field.size().width << " x "
+         << light_field.size().height << " pixels does; give a range within that.";
+    throw InputError(text.str());
+  }
+}
+
+/// The caller's room, or that of a vector.
+PointAllocator roomOr(const PointAllocator& room, std::vector<ColoredPoint>& points)
+{
+  if (room)
+  {
+    return room;
+  }
+  return [&points](std::size_t count)
+  {
+    points.resize(count);
+    return points.data();
+  };
+}
+
+}  // namespace
+
+std::string toString(Method method)
+{
+  const auto* const found = std::find_if(METHOD_NAMES.begin(), METHOD_NAMES.end(),
+                                         [&](const auto& entry) { return entry.first == method; });
+  return found->second;
+}
+
+Method methodFromString(const std::string& name)
+{
+  const auto* const found = std::find_if(METHOD_NAMES.begin(), METHOD_NAMES.end(),
+                                         [&](const auto& entry) { return name == entry.second; });
+  if (found == METHOD_NAMES.end())
+  {
+    std::string names;
+    for (const std::string& known : methodNames())
+    {
+      names += (names.empty() ? "" : ", ") + known;
+    }
+    throw InputError("There is no method '" + name + "'; choose one of: " + names + ".");
+  }
+  return found->first;
+}
+
+std::vector<std::string> methodNames()
+{
+  std::vector<std::string> names;
+  names.reserve(METHOD_NAMES.size());
+  for (const auto& entry : METHOD_NAMES)
+  {
+    names.emplace_back(entry.second);
+  }
+  return names;
+}
+
+std::vector<std::string> validate(const PipelineOptions& options)
+{
+  std::vector<std::string> problems;
+  if (options.disparity_range)
+  {
+    const DisparityRange& range = *options.disparity_range;
+    if (!std::isfinite(range.min) || !std::isfinite(range.max) || range.min >= range.max)
+    {
+      problems.push_back("disparity_range is " + std::to_string(range.min) + ".." +
+                         std::to_string(range.max) + " px; give two finite numbers, the smaller first.");
+    }
+  }
+  if (!(options.min_confidence >= 0.0F && options.min_confidence <= 1.0F))
+  {
+    problems.push_back("min_confidence is " + std::to_string(options.min_confidence) +
+                       "; it must be between 0 and 1.");
+  }
+  append(problems, validate(options.dense_cloud));
+  append(problems, validate(options.paper2017));
+  append(problems, validate(options.multiview));
+  return problems;
+}
+
+Pipeline::Pipeline(int threads) : pool_(threads)
+{
+  pool_.setCancellation(&cancellation_);
+}
+
+Pipeline::~Pipeline() = default;
+
+Estimator& Pipeline::estimatorFor(const PipelineOptions& options)
+{
+  if (options.method == Method::Multiview)
+  {
+    if (!multiview_)
+    {
+      multiview_ = std::make_unique<MultiviewEstimator>();
+    }
+    multiview_->setOptions(options.multiview);
+    return *multiview_;
+  }
+  if (!paper2017_)
+  {
+    paper2017_ = std::make_unique<Paper2017Estimator>();
+  }
+  paper2017_->setOptions(options.paper2017);
+  return *paper2017_;
+}
+
+void Pipeline::unproject(const LightField& light_field, const PipelineOptions& options,
+                         const ProductRequest& request, RunContext& context, PipelineResult& result)
+{
+  const DisparityEstimate& estimate = result.estimate;
+  if (request.depth)
+  {
+    const StageTimer timer(context, "depth");
+    result.depth = depthMap(estimate.disparity, *light_field.calibration);
+    result.depth.setTo(std::nan(""), estimate.confidence < options.min_confidence);
+  }
+  if (request.organized_cloud)
+  {
+    const StageTimer timer(context, "cloud");
+    const std::size_t count = estimate.disparity.total();
+    unprojectReference(light_field, estimate.disparity, estimate.confidence, options.min_confidence, pool_,
+                       roomOr(request.organized_cloud_allocator, result.organized_cloud)(count));
+  }
+  if (request.dense_cloud)
+  {
+    const StageTimer timer(context, "dense cloud");
+    denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_,
+               roomOr(request.dense_cloud_allocator, result.dense_cloud));
+    result.estimate.view_disparities.clear();  // so that the next frame may have their memory
+  }
+}
+
+PipelineResult Pipeline::run(const LightField& light_field, const PipelineOptions& options,
+                             const ProductRequest& request)
+{
+  throwIfAny(validate(options));
+  if (options.disparity_range)
+  {
+    checkRange(*options.disparity_range, light_field);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  RunContext context(pool_);
+  context.save_intermediate = intermediate_sink_;
+  context.progress = progress_sink_;
+
+  const bool calibrated = light_field.calibration.has_value();
+  EstimateRequest estimate_request;
+  estimate_request.disparity_range = options.disparity_range;
+  estimate_request.views = options.views;
+  estimate_request.view_disparities = request.dense_cloud && calibrated;
+
+  // The clouds and the estimate see the same bytes: those of 16 bits are converted once.
+  const bool colours = calibrated && (request.organized_cloud || request.dense_cloud);
+  const LightField shown = colours ? toEightBit(light_field) : light_field;
+  PipelineResult result;
+  result.estimate = estimatorFor(options).estimate(shown, estimate_request, context);
+  if (calibrated)
+  {
+    unproject(shown, options, request, context, result);
+  }
+  result.stage_times = std::move(context.stage_times);
+  result.total_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace light_field_depth

@@ -1,0 +1,94 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_ROS_DEPTH_NODE_IMPLEMENTATION_H
+#define LIGHT_FIELD_DEPTH_SRC_ROS_DEPTH_NODE_IMPLEMENTATION_H
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <ros/steady_timer.h>
+#include <std_srvs/Empty.h>
+
+#include "light_field_depth/core/pipeline.h"
+#include "light_field_depth/ros/depth_node.h"
+#include "ros/background_runner.h"
+#include "ros/frame_queue.h"
+#include "ros/light_field_assembler.h"
+#include "ros/message_pool.h"
+#include "ros/node_diagnostics.h"
+#include "ros/node_parameters.h"
+#include "ros/result_publisher.h"
+#include "ros/settings.h"
+#include "ros/view_input.h"
+
+namespace light_field_depth
+{
+/// What the stats say of one frame besides its results.
+struct FrameReport
+{
+  using Time = std::chrono::steady_clock::time_point;
+
+  std::size_t views_expected = 0;
+  std::int64_t stamp_spread_ns = 0;
+  std::string method;
+  // When the steps were done.
+  Time arrived;
+  Time taken;
+  Time assembled;
+  Time computed;
+  Time published;
+};
+
+/// The parts of a DepthNode and the two threads that run them.
+class DepthNode::Implementation
+{
+public:
+  Implementation(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle);
+  ~Implementation();
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+private:
+  void updateSubscriptions();
+  void watch(const ros::SteadyTimerEvent& event);
+  bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+
+  void workerLoop();
+  void processSafely(const FrameSet& set);
+  void process(const FrameSet& set, const Subscribers& subscribers);
+  FrameProducts compute(const LightField& light_field, const NodeSettings& settings,
+                        const std_msgs::Header& header, const Subscribers& subscribers);
+  void publishSafely(const FrameProducts& products, FrameReport report);
+  LightFieldDepthStats statsOf(const FrameProducts& products, const FrameReport& report) const;
+
+  const NodeParameters parameters_;
+  NodeDiagnostics diagnostics_;
+  SettingsServer settings_;
+  FrameQueue queue_;
+  ViewInput input_;
+  LightFieldAssembler assembler_;  ///< used by the worker alone
+  Pipeline pipeline_;              ///< used by the worker alone, but for cancel()
+  MessagePool<sensor_msgs::PointCloud2> organized_clouds_;
+  MessagePool<sensor_msgs::PointCloud2> dense_clouds_;
+
+  std::mutex subscription_mutex_;  ///< guards results_ while it is made, and who is subscribed to what
+  bool subscribed_ = false;
+  bool shutting_down_ = false;
+  std::unique_ptr<ResultPublisher> results_;
+  BackgroundRunner publication_;
+
+  ros::ServiceServer reset_service_;
+  ros::SteadyTimer watch_timer_;
+  std::chrono::steady_clock::time_point silent_since_;  ///< used by watch() alone
+  ViewSynchronizerStatistics heard_before_;             ///< at silent_since_
+  std::thread worker_;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_ROS_DEPTH_NODE_IMPLEMENTATION_H

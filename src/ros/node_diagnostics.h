@@ -1,0 +1,64 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_ROS_NODE_DIAGNOSTICS_H
+#define LIGHT_FIELD_DEPTH_SRC_ROS_NODE_DIAGNOSTICS_H
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include "ros/log_throttle.h"
+#include "ros/recent_frames.h"
+#include "ros/view_synchronizer.h"
+
+namespace light_field_depth
+{
+/// What the node tells its operator: sentences in the log, not too often, and the diagnostics. Thread safe,
+/// except update().
+class NodeDiagnostics
+{
+public:
+  NodeDiagnostics(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle);
+
+  /// A frame has been published, just now. @param latency_ms from the arrival of its last image
+  void framePublished(double latency_ms);
+  /// A frame could not be worked on. The sentence goes into the log unless it has just been there.
+  void frameFailed(const std::string& sentence);
+  /// Something that should be looked at, logged likewise.
+  void warn(const std::string& sentence);
+
+  std::uint64_t framesPublished() const;
+  std::uint64_t framesFailed() const;
+  RecentFrames::Summary recentFrames() const;
+
+  /// Publishes the diagnostics when they are due.
+  void update(const ViewSynchronizerStatistics& input, std::uint64_t frames_dropped, bool listening);
+
+private:
+  void reportInput(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
+  bool isNews(const std::string& sentence)
+  {
+    return logged_.isNews(sentence, std::chrono::steady_clock::now());
+  }
+
+  mutable std::mutex mutex_;  ///< guards what follows
+  std::uint64_t frames_published_ = 0;
+  std::uint64_t frames_failed_ = 0;
+  RecentFrames recent_;
+  std::string last_failure_;  ///< empty after a frame that went well
+  std::string last_warning_;  ///< likewise
+  LogThrottle logged_;
+
+  // Used by update() alone.
+  ViewSynchronizerStatistics input_;
+  std::uint64_t frames_dropped_ = 0;
+  bool listening_ = false;
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_ROS_NODE_DIAGNOSTICS_H

@@ -1,0 +1,59 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_ROS_NODE_PARAMETERS_H
+#define LIGHT_FIELD_DEPTH_SRC_ROS_NODE_PARAMETERS_H
+
+#include <string>
+
+#include <ros/node_handle.h>
+
+#include "light_field_depth/ros/calibration_from_camera_info.h"
+#include "light_field_depth/ros/view_array.h"
+
+namespace light_field_depth
+{
+/// What is read once, when the node starts. Each field is a private parameter of the same name, without the
+/// unit. What may change later is in config/LightFieldDepth.cfg.
+struct NodeParameters
+{
+  /// `array`: the views and their topics.
+  ViewArray array = defaultViewArray();
+
+  /// `use_camera_info`: false takes the calibration from the parameters below alone.
+  bool use_camera_info = true;
+
+  /// `baseline_x`, `baseline_y`, `focal_length`, `principal_point_x`, `principal_point_y`,
+  /// `disparity_offset`.
+  CalibrationParameters calibration;
+
+  /// `sync_tolerance`, in seconds: largest difference between the stamps of a set; 0: they are equal.
+  double sync_tolerance_s = 0.0;
+
+  /// `queue_size`: incomplete sets that are kept, and messages of a topic. Raise it when views of one stamp
+  /// arrive many frames apart.
+  int queue_size = 5;
+
+  /// `keep_all`: work on every set, up to keep_all_limit of them waiting, instead of on the newest. For bags.
+  bool keep_all = false;
+  int keep_all_limit = 100;
+
+  /// `lazy`: subscribe to the views only while somebody listens to a result.
+  bool lazy = true;
+
+  /// `threads` that work on a frame; 0 takes one per processor.
+  int threads = 0;
+
+  /// `frame_id` of the results; that of the reference image when empty.
+  std::string frame_id;
+
+  /// `image_transport` of the views.
+  std::string image_transport = "raw";
+
+  /// `patience`, in seconds: how long without a whole set until a warning says what is missing.
+  double patience_s = 5.0;
+};
+
+/// @throw InputError that names the parameter, its value and the remedy
+NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_ROS_NODE_PARAMETERS_H

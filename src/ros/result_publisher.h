@@ -1,0 +1,85 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_ROS_RESULT_PUBLISHER_H
+#define LIGHT_FIELD_DEPTH_SRC_ROS_RESULT_PUBLISHER_H
+
+#include <functional>
+
+#include <image_transport/image_transport.h>
+#include <image_transport/publisher.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+
+#include "light_field_depth/LightFieldDepthStats.h"
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/pipeline.h"
+
+namespace light_field_depth
+{
+/// Which results somebody listens to.
+struct Subscribers
+{
+  bool disparity = false;
+  bool disparity_color = false;
+  bool depth = false;
+  bool confidence = false;
+  bool points2 = false;
+  bool points_dense = false;
+  bool camera_info = false;
+  bool stats = false;
+
+  bool any() const
+  {
+    return disparity || disparity_color || depth || confidence || points2 || points_dense || camera_info ||
+           stats;
+  }
+};
+
+/// What a frame's publication takes, and all of it: nothing here belongs to the frames that follow.
+struct FrameProducts
+{
+  std_msgs::Header header;
+  Subscribers subscribers;
+  Calibration calibration;
+  float min_confidence = 0.0F;
+  PipelineResult result;
+  sensor_msgs::PointCloud2Ptr points2;       ///< null when the subscribers does not want it
+  sensor_msgs::PointCloud2Ptr points_dense;  ///< likewise
+  sensor_msgs::CameraInfoConstPtr info;      ///< of the reference view; may be null
+};
+
+/// The topics of the results. Thread safe, except shutdown().
+class ResultPublisher
+{
+public:
+  /// @param on_subscribers_changed called after somebody began or ceased to listen, from the threads of the
+  /// node
+  ///   handle's callback queue, possibly before the constructor has returned
+  ResultPublisher(const ros::NodeHandle& private_node_handle,
+                  const std::function<void()>& on_subscribers_changed);
+
+  Subscribers subscribers() const;
+
+  /// Publishes what the subscribers of this frame listens to, all but the stats.
+  void publish(const FrameProducts& products) const;
+
+  void publish(const LightFieldDepthStats& stats) const;
+
+  void shutdown();
+
+private:
+  image_transport::ImageTransport image_transport_;
+  ros::Publisher disparity_;
+  image_transport::Publisher disparity_color_;
+  image_transport::Publisher depth_;
+  image_transport::Publisher confidence_;
+  ros::Publisher points2_;
+  ros::Publisher points_dense_;
+  ros::Publisher camera_info_;
+  ros::Publisher stats_;
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_ROS_RESULT_PUBLISHER_H

@@ -1,0 +1,73 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_ROS_VIEW_INPUT_H
+#define LIGHT_FIELD_DEPTH_SRC_ROS_VIEW_INPUT_H
+
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <image_transport/image_transport.h>
+#include <image_transport/subscriber.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include "ros/frame_queue.h"
+#include "ros/node_parameters.h"
+#include "ros/view_synchronizer.h"
+
+namespace light_field_depth
+{
+/// The topics of all views: brings images of one moment together and keeps the newest CameraInfo of each
+/// view. The callbacks only move pointers. subscribe(), unsubscribe() are for one thread at a time; the rest
+/// is thread safe.
+class ViewInput
+{
+public:
+  using FrameCallback = std::function<void(FrameSet)>;
+  using CalibratedCallback = std::function<void()>;
+
+  /// @param on_frame      called with every whole set
+  /// @param on_calibrated called when every view has had a CameraInfo, once until forgetCameraInfos()
+  /// Both are called from the threads of the node handle's callback queue.
+  ViewInput(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle,
+            const NodeParameters& parameters, FrameCallback on_frame, CalibratedCallback on_calibrated);
+  ~ViewInput();
+
+  void subscribe();
+  /// Returns when no callback is running any more. What was incomplete is forgotten, CameraInfos are kept.
+  void unsubscribe();
+
+  /// Drops incomplete sets and CameraInfos.
+  void forget();
+
+  std::vector<sensor_msgs::CameraInfoConstPtr> cameraInfos() const;  ///< null where none has come yet
+  ViewSynchronizerStatistics statistics() const;
+
+private:
+  using Synchronizer = ViewSynchronizer<sensor_msgs::ImageConstPtr>;
+
+  void subscribeTo(std::size_t view);
+  void imageCallback(std::size_t view, const sensor_msgs::ImageConstPtr& image);
+  void cameraInfoCallback(std::size_t view, const sensor_msgs::CameraInfoConstPtr& info);
+
+  ros::NodeHandle node_handle_;
+  ros::NodeHandle private_node_handle_;
+  NodeParameters parameters_;
+  FrameCallback on_frame_;
+  CalibratedCallback on_calibrated_;
+  image_transport::ImageTransport image_transport_;
+  std::vector<image_transport::Subscriber> image_subscribers_;
+  std::vector<ros::Subscriber> info_subscribers_;
+
+  mutable std::mutex mutex_;  ///< guards what follows
+  Synchronizer synchronizer_;
+  std::vector<sensor_msgs::CameraInfoConstPtr> infos_;
+  std::size_t info_count_ = 0;  ///< views that have had one
+};
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_ROS_VIEW_INPUT_H

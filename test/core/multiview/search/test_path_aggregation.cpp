@@ -1,0 +1,319 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/multiview/search/path_aggregation.h"
+#include "core/multiview/search/path_kernels.h"
+#include "support/instruction_sets.h"
+
+namespace light_field_depth::multiview
+{
+namespace
+{
+constexpr std::size_t TILE_AREA = static_cast<std::size_t>(TILE_PX) * TILE_PX;
+
+template <typename Value>
+std::vector<Value> randomValues(std::size_t count, int low, int high, unsigned seed)
+{
+  std::mt19937 engine(seed);
+  std::uniform_int_distribution<int> any(low, high);
+  std::vector<Value> values(count);
+  std::generate(values.begin(), values.end(), [&] { return static_cast<Value>(any(engine)); });
+  return values;
+}
+
+struct TileBuffers
+{
+  explicit TileBuffers(int labels, unsigned seed)
+      : state(static_cast<std::size_t>(labels + 2) * TILE_PX, NO_STATE),
+        minima(randomValues<std::uint16_t>(TILE_PX, 0, 100, seed)),
+        sums(randomValues<std::uint16_t>(static_cast<std::size_t>(labels) * TILE_AREA, 0, 900, seed + 1))
+  {
+    const auto before =
+        randomValues<std::uint16_t>(static_cast<std::size_t>(labels) * TILE_PX, 100, 1400, seed + 2);
+    std::copy(before.begin(), before.end(), state.begin() + TILE_PX);
+  }
+  std::vector<std::uint16_t> state;
+  std::vector<std::uint16_t> minima;
+  std::vector<std::uint16_t> sums;
+};
+
+class PathKernels : public testing::InstructionSetTest
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, PathKernels, testing::everyInstructionSet(),
+                         testing::instructionSetName);
+
+TEST_P(PathKernels, StepsEqualThePlainVersion)
+{
+  constexpr int width = 203;  // no multiple of any vector
+  constexpr std::size_t stride = 256;
+  const auto changes = randomValues<std::uint16_t>(stride, 0, 40, 8);
+  auto simd = changes;
+  auto plain = changes;
+  stepRow({1200.0F, 67.5F, width, simd.data()});
+  stepRowPlain({1200.0F, 67.5F, width, plain.data()});
+  simd.resize(width);
+  plain.resize(width);
+  EXPECT_EQ(simd, plain);
+  EXPECT_GT(*std::max_element(plain.begin(), plain.end()), 500);
+  EXPECT_EQ(*std::min_element(plain.begin(), plain.end()), 68);
+}
+
+TEST_P(PathKernels, TilesEqualThePlainVersion)
+{
+  for (const int labels : {1, 2, 29})
+  {
+    const auto cost = randomValues<std::uint8_t>(static_cast<std::size_t>(labels) * TILE_AREA, 0, 240, 1);
+    const auto large_change_penalty = randomValues<std::uint16_t>(TILE_AREA, 45, 1000, 2);
+    for (const bool backward : {false, true})
+    {
+      for (const int lines : {TILE_PX, 13})
+      {
+        TileBuffers simd(labels, 3);
+        TileBuffers plain(labels, 3);
+        const auto tile = [&](TileBuffers& buffers)
+        {
+          return PathTile{cost.data(),
+                          buffers.sums.data(),
+                          backward,
+                          labels,
+                          lines,
+                          backward,
+                          30,
+                          large_change_penalty.data(),
+                          TILE_PX,
+                          buffers.state.data() + TILE_PX,
+                          buffers.minima.data()};
+        };
+        aggregateTile(tile(simd));
+        aggregateTilePlain(tile(plain));
+        EXPECT_EQ(simd.sums, plain.sums) << labels << " labels, " << lines << " lines";
+        EXPECT_EQ(simd.state, plain.state);
+        EXPECT_EQ(simd.minima, plain.minima);
+      }
+    }
+  }
+}
+
+TEST_P(PathKernels, TransposedTilesEqualThePlainVersion)
+{
+  constexpr int labels = 5;
+  const auto bytes = randomValues<std::uint8_t>(labels * TILE_AREA, 0, 255, 4);
+  std::vector<std::uint8_t> simd_bytes(bytes.size());
+  std::vector<std::uint8_t> plain_bytes(bytes.size());
+  transposeTile(bytes.data(), labels, simd_bytes.data());
+  transposeTilePlain(bytes.data(), labels, plain_bytes.data());
+  EXPECT_EQ(simd_bytes, plain_bytes);
+  const auto words = randomValues<std::uint16_t>(labels * TILE_AREA, 0, 65535, 5);
+  std::vector<std::uint16_t> simd_words(words.size());
+  std::vector<std::uint16_t> plain_words(words.size());
+  transposeTile(words.data(), labels, simd_words.data());
+  transposeTilePlain(words.data(), labels, plain_words.data());
+  EXPECT_EQ(simd_words, plain_words);
+  transposeTile(simd_words.data(), labels, plain_words.data());
+  EXPECT_EQ(plain_words, words);
+}
+
+TEST_P(PathKernels, LabelsEqualThePlainVersion)
+{
+  for (const int labels : {1, 2, 29})
+  {
+    for (const int highest : {3, 65000})  // the first with many equal sums
+    {
+      const auto sums =
+          randomValues<std::uint16_t>(static_cast<std::size_t>(labels) * TILE_PX, 0, highest, 6);
+      std::array<float, TILE_PX> simd{};
+      std::array<float, TILE_PX> plain{};
+      selectLabels(sums.data(), labels, 7, simd.data());
+      selectLabelsPlain(sums.data(), labels, 7, plain.data());
+      EXPECT_EQ(simd, plain) << labels << " labels";
+    }
+  }
+}
+
+/// An image and a cost volume whose size is no multiple of a tile.
+struct Problem
+{
+  static constexpr int WIDTH = 75;
+  static constexpr int HEIGHT = 41;
+  static constexpr int LABELS = 19;
+  std::vector<std::uint8_t> cost =
+      randomValues<std::uint8_t>(static_cast<std::size_t>(WIDTH) * HEIGHT * LABELS, 0, 240, 8);
+  PlanarImage guide;
+  PathSettings settings;
+
+  Problem()
+  {
+    guide.create(WIDTH, HEIGHT, 1, 8);
+    const auto values = randomValues<std::uint8_t>(static_cast<std::size_t>(WIDTH) * HEIGHT, 0, 40, 9);
+    for (int y = 0; y < HEIGHT; ++y)
+    {
+      std::copy_n(values.data() + static_cast<std::ptrdiff_t>(y) * WIDTH, WIDTH, guide.row(y));
+    }
+  }
+
+  static std::size_t entry(const cv::Point& p, int label)
+  {
+    const int pixel = p.y * WIDTH + p.x;
+    return static_cast<std::size_t>(pixel) * LABELS + static_cast<std::size_t>(label);
+  }
+
+  int costAt(int x, int y, int label) const { return cost[entry({x, y}, label)]; }
+
+  CostVolume volume(const LabelBands& bands) const
+  {
+    CostVolume result;
+    result.create(WIDTH, HEIGHT, bands, CostVolume::Room::Band);
+    for (int y = 0; y < HEIGHT; ++y)
+    {
+      for (int x = 0; x < WIDTH; ++x)
+      {
+        const LabelBand& band = bands.at(y / TILE_PX, x / TILE_PX);
+        for (int label = band.first; label < band.end(); ++label)
+        {
+          const int value = (y % TILE_PX * band.count + label - band.first) * TILE_PX + x % TILE_PX;
+          result.values[result.tileOffset(y / TILE_PX, x / TILE_PX) + static_cast<std::size_t>(value)] =
+              static_cast<std::uint8_t>(costAt(x, y, label));
+        }
+      }
+    }
+    return result;
+  }
+
+  cv::Mat solve(const LabelBands& bands, int threads) const
+  {
+    ThreadPool pool(threads);
+    PathAggregator aggregator;
+    aggregator.setGuide(guide, settings, pool);
+    cv::Mat label;
+    aggregator.aggregate(volume(bands), settings, pool, label);
+    return label;
+  }
+
+  int largeChangePenalty(int x, int y, int from_x, int from_y) const
+  {
+    const int change = 3 * std::abs(guide.row(y)[x] - guide.row(from_y)[from_x]);
+    const float step =
+        static_cast<float>(settings.large_change_penalty) / (1.0F + static_cast<float>(change));
+    return static_cast<int>(std::lround(
+        std::max(settings.large_change_floor * static_cast<float>(settings.small_change_penalty), step)));
+  }
+
+  /// The formula of the header, pixel by pixel.
+  std::vector<int> sums() const
+  {
+    std::vector<int> total(cost.size(), 0);
+    for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)})
+    {
+      std::vector<int> path(cost.size(), 0);
+      for (int i = 0; i < WIDTH * HEIGHT; ++i)
+      {
+        const int pixel = step.x + step.y > 0 ? i : WIDTH * HEIGHT - 1 - i;
+        addPath({pixel % WIDTH, pixel / WIDTH}, step, path);
+      }
+      std::transform(path.begin(), path.end(), total.begin(), total.begin(), std::plus<>());
+    }
+    return total;
+  }
+
+private:
+  void addPath(const cv::Point& pixel, const cv::Point& step, std::vector<int>& path) const
+  {
+    const cv::Point from = pixel - step;
+    const bool begins = from.x < 0 || from.y < 0 || from.x >= WIDTH || from.y >= HEIGHT;
+    int least = 0;
+    if (!begins)
+    {
+      const auto first = path.begin() + static_cast<std::ptrdiff_t>(entry(from, 0));
+      least = *std::min_element(first, first + LABELS);
+    }
+    for (int label = 0; label < LABELS; ++label)
+    {
+      int best = 0;
+      if (!begins)
+      {
+        best =
+            std::min(path[entry(from, label)], least + largeChangePenalty(pixel.x, pixel.y, from.x, from.y));
+        best =
+            label > 0 ? std::min(best, path[entry(from, label - 1)] + settings.small_change_penalty) : best;
+        best = label + 1 < LABELS
+                   ? std::min(best, path[entry(from, label + 1)] + settings.small_change_penalty)
+                   : best;
+      }
+      path[entry(pixel, label)] = costAt(pixel.x, pixel.y, label) + best - least;
+    }
+  }
+};
+
+TEST(PathAggregator, IsTheRecursionOfItsFormula)
+{
+  const Problem problem;
+  LabelBands bands;
+  bands.setAll(Problem::WIDTH, Problem::HEIGHT, Problem::LABELS);
+  const cv::Mat label = problem.solve(bands, 2);
+  const auto sums = problem.sums();
+  for (int y = 0; y < Problem::HEIGHT; ++y)
+  {
+    for (int x = 0; x < Problem::WIDTH; ++x)
+    {
+      const auto first = sums.begin() + static_cast<std::ptrdiff_t>(y * Problem::WIDTH + x) * Problem::LABELS;
+      const auto best = std::min_element(first, first + Problem::LABELS) - first;
+      ASSERT_NEAR(label.at<float>(y, x), static_cast<float>(best), 0.5F) << x << ", " << y;
+    }
+  }
+}
+
+TEST(PathAggregator, StaysInTheBandsAndDoesNotDependOnThreads)
+{
+  const Problem problem;
+  LabelBands bands;
+  bands.setAll(Problem::WIDTH, Problem::HEIGHT, Problem::LABELS);
+  bands.at(0, 0) = {0, 1};
+  bands.at(0, 1) = {12, 7};
+  bands.at(1, 0) = {3, 8};
+  bands.at(1, 1) = {2, 4};
+  const cv::Mat label = problem.solve(bands, 1);
+  for (int y = 0; y < Problem::HEIGHT; ++y)
+  {
+    for (int x = 0; x < Problem::WIDTH; ++x)
+    {
+      const LabelBand& band = bands.at(y / TILE_PX, x / TILE_PX);
+      ASSERT_TRUE(band.contains(cvRound(label.at<float>(y, x)))) << x << ", " << y;
+    }
+  }
+  EXPECT_EQ(cv::norm(label, problem.solve(bands, 3), cv::NORM_INF), 0.0);
+}
+
+TEST(LabelBands, HoldTheLabelsAroundAMap)
+{
+  LabelSpace space;
+  space.first_px = -2.0F;
+  space.step_px = 0.125F;
+  space.count = 33;
+  cv::Mat disparity(70, 100, CV_32FC1, 0.0F);
+  disparity.at<float>(40, 60) = 1.0F;
+  disparity.at<float>(0, 0) = -5.0F;
+  ThreadPool pool(1);
+  LabelBands bands;
+  bands.setAround(disparity, space, 6, 2.0F, pool);
+  EXPECT_EQ(bands.rows(), 3);
+  EXPECT_EQ(bands.columns(), 4);
+  EXPECT_EQ(bands.at(1, 1).first, 14);
+  EXPECT_EQ(bands.at(1, 1).end(), 27);
+  EXPECT_EQ(bands.at(1, 2).end(), 27);  // 4 pixels away
+  EXPECT_EQ(bands.at(1, 3).end(), 19);
+  EXPECT_EQ(bands.at(2, 1).end(), 19);  // too far
+  EXPECT_EQ(bands.at(0, 0).first, 0);
+}
+
+}  // namespace
+}  // namespace light_field_depth::multiview
