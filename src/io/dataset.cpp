@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 #include <system_error>
 #include <utility>
 
+#include "io/dataset_layout.h"
 #include "io/folder_description.h"
 #include "io/view_placement.h"
+#include "io/view_store.h"
 #include "light_field_depth/core/error.h"
-#include "light_field_depth/core/thread_pool.h"
-#include "light_field_depth/io/image_files.h"
 
 namespace light_field_depth
 {
@@ -19,6 +20,13 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* DESCRIPTION_FILE = "light_field.yaml";
+
+constexpr int MAX_GRID_SIDE = 999;
+
+constexpr std::array<std::pair<Order, const char*>, 2> ORDER_NAMES = {{
+    {Order::RowMajor, "row-major"},
+    {Order::ColumnMajor, "column-major"},
+}};
 
 constexpr std::array<std::pair<Flip, const char*>, 4> FLIP_NAMES = {{
     {Flip::None, "none"},
@@ -42,50 +50,22 @@ FolderDescription describe(const fs::path& folder)
   return fs::exists(yaml_file) ? describeByYaml(yaml_file) : describeByNames(folder);
 }
 
-/// All images in the order of the views; the failure of the first view that fails is thrown.
-std::vector<cv::Mat> decodeAll(const std::vector<ViewFile>& views, int threads)
-{
-  std::vector<cv::Mat> images(views.size());
-  std::vector<std::string> failures(views.size());
-  ThreadPool pool(threads);
-  pool.parallelFor(0, static_cast<int>(views.size()), 1,
-                   [&](int first, int last)
-                   {
-                     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-                     {
-                       try
-                       {
-                         images[i] = readImage(views[i].path);
-                       }
-                       catch (const InputError& error)
-                       {
-                         failures[i] = error.what();
-                       }
-                     }
-                   });
-  const auto failure =
-      std::find_if(failures.begin(), failures.end(), [](const std::string& text) { return !text.empty(); });
-  if (failure != failures.end())
-  {
-    throw InputError(*failure);
-  }
-  return images;
-}
-
 std::string imageText(const cv::Mat& image)
 {
   return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " pixels, " +
          (image.depth() == CV_8U ? "8" : "16") + " bits, " + (image.channels() == 1 ? "grey" : "colour");
 }
 
-void requireEqualImages(const std::vector<ViewFile>& views, const std::vector<cv::Mat>& images)
+void requireEqualImages(const std::vector<ViewFile>& files, const std::vector<View>& views)
 {
-  for (std::size_t i = 1; i < images.size(); ++i)
+  for (std::size_t i = 1; i < views.size(); ++i)
   {
-    if (images[i].size() != images[0].size() || images[i].type() != images[0].type())
+    const cv::Mat& first = views.front().image;
+    const cv::Mat& image = views[i].image;
+    if (image.size() != first.size() || image.type() != first.type())
     {
-      throw InputError("The views differ: '" + views[0].path.string() + "' has " + imageText(images[0]) +
-                       ", '" + views[i].path.string() + "' has " + imageText(images[i]) +
+      throw InputError("The views differ: '" + files[0].path.string() + "' has " + imageText(first) + ", '" +
+                       files[i].path.string() + "' has " + imageText(image) +
                        "; all views must have one size and type.");
     }
   }
@@ -125,41 +105,106 @@ Flip flipFromString(const std::string& name)
                                          [&](const auto& entry) { return name == entry.second; });
   if (found == FLIP_NAMES.end())
   {
-    throw InputError("There is no flip '" + name + "'; choose none, rows, columns or both.");
+    throw InputError("There is no flip '" + name + "'; choose auto, none, rows, columns or both.");
   }
   return found->first;
+}
+
+std::string toString(Order order)
+{
+  const auto* const found = std::find_if(ORDER_NAMES.begin(), ORDER_NAMES.end(),
+                                         [&](const auto& entry) { return entry.first == order; });
+  return found->second;
+}
+
+Order orderFromString(const std::string& name)
+{
+  const auto* const found = std::find_if(ORDER_NAMES.begin(), ORDER_NAMES.end(),
+                                         [&](const auto& entry) { return name == entry.second; });
+  if (found == ORDER_NAMES.end())
+  {
+    throw InputError("There is no order '" + name + "'; choose auto, row-major or column-major.");
+  }
+  return found->first;
+}
+
+std::optional<Order> orderOption(const std::string& name)
+{
+  return name.empty() || name == "auto" ? std::nullopt : std::make_optional(orderFromString(name));
+}
+
+std::optional<Flip> flipOption(const std::string& name)
+{
+  return name.empty() || name == "auto" ? std::nullopt : std::make_optional(flipFromString(name));
+}
+
+cv::Size gridFromString(const std::string& option, const std::string& text)
+{
+  static const std::regex form(R"((\d{1,3})\s*[xX*]\s*(\d{1,3}))");
+  std::smatch match;
+  if (std::regex_match(text, match, form))
+  {
+    const cv::Size grid(std::stoi(match[2]), std::stoi(match[1]));
+    if (grid.width >= 1 && grid.height >= 1 && grid.area() >= 2)
+    {
+      return grid;
+    }
+  }
+  throw InputError(option + " is '" + text + "'; give rows and columns, from 1 to " +
+                   std::to_string(MAX_GRID_SIDE) + ", as in 9x17.");
+}
+
+std::string toString(PlaceClaim claim)
+{
+  switch (claim)
+  {
+    case PlaceClaim::Stated:
+      return "stated";
+    case PlaceClaim::TwoNumbers:
+      return "two numbers";
+    case PlaceClaim::SingleNumber:
+      break;
+  }
+  return "single number";
 }
 
 Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
 {
   FolderDescription description = describe(folder);
-  const PlacedViews placed = placeViews(folder, description, options);
-  const std::vector<cv::Mat> images = decodeAll(description.views, options.threads);
-  requireEqualImages(description.views, images);
+  ViewStore store(description.views, options.threads);
+  settleGrid(description, options, store);
+  const Layout layout = settleLayout(description, options, store);
+  const PlacedViews placed = placeViews(folder, description, layout, options.reference);
+  store.decode(idsOf(description.views));
 
   Dataset dataset;
   dataset.format = description.format;
+  dataset.place_claim = description.place_claim;
+  dataset.order = layout.order;
   dataset.flip = placed.flip;
   std::vector<View> views = placed.views;
   for (std::size_t i = 0; i < views.size(); ++i)
   {
-    views[i].image = images[i];
+    views[i].image = store.image(description.views[i].id);
     dataset.files.push_back(description.views[i].path);
   }
+  requireEqualImages(description.views, views);
   std::optional<Calibration> calibration;
   if (description.camera)
   {
-    calibration = calibrationFrom(*description.camera, images.front().size(), placed.reference_steps);
+    calibration = calibrationFrom(*description.camera, views.front().image.size(), placed.reference_steps);
   }
   dataset.light_field = makeLightField(std::move(views), placed.reference, calibration);
-  if (placed.own_flip)
+  if (placed.own_layout)
   {
     dataset.disparity_range = description.disparity_range;
   }
-  if (placed.own_flip && placed.own_reference)
+  if (placed.own_layout && placed.own_reference)
   {
     dataset.truth = description.truth;
   }
+  dataset.notes = std::move(description.notes);
+  dataset.warnings = std::move(description.warnings);
   return dataset;
 }
 

@@ -26,8 +26,9 @@ inline bool canBeCounted(const GridPosition& number)
 struct ViewFile
 {
   std::filesystem::path path;
-  GridPosition number;                  ///< as the dataset counts
+  GridPosition number;                  ///< as the dataset counts; PlaceClaim::SingleNumber: {0, index}
   std::optional<cv::Point2d> position;  ///< of the camera, in any unit: x to the right, y downwards
+  std::size_t id = 0;                   ///< in the ViewStore
 };
 
 /// What a dataset says of its cameras.
@@ -45,15 +46,19 @@ struct CameraDescription
 struct FolderDescription
 {
   std::string format;
+  PlaceClaim place_claim = PlaceClaim::Stated;
   std::vector<ViewFile> views;
   std::optional<cv::Rect> grid;           ///< numbers of all views there could be: x, width are columns
   std::optional<GridPosition> reference;  ///< the view of the truth; the middle of the grid if absent
   std::optional<Flip> flip;               ///< found from the positions, or None, if absent
+  std::optional<Order> order;             ///< RowMajor if absent
   std::optional<double> step_length;      ///< distance of adjacent columns in the unit of the positions
   double row_step_ratio = 1.0;            ///< distance of adjacent rows over that of adjacent columns
   std::optional<CameraDescription> camera;
   std::optional<DisparityRange> disparity_range;
   std::optional<std::filesystem::path> truth;
+  std::vector<std::string> notes;     ///< Dataset::notes
+  std::vector<std::string> warnings;  ///< Dataset::warnings
 };
 
 /// A folder with a light_field.yaml. @throw InputError

@@ -216,11 +216,38 @@ cv::Point2d stepsBetween(const std::vector<ViewFile>& views, const StepRule& ste
                                                      : steps.ofNumber(to) - steps.ofNumber(from);
 }
 
+/// Rows become columns, in numbers and positions. The step length stays that of the first direction.
+void transpose(FolderDescription& description)
+{
+  for (ViewFile& view : description.views)
+  {
+    std::swap(view.number.row, view.number.column);
+    if (view.position)
+    {
+      std::swap(view.position->x, view.position->y);
+    }
+  }
+  if (description.grid)
+  {
+    std::swap(description.grid->x, description.grid->y);
+    std::swap(description.grid->width, description.grid->height);
+  }
+  if (description.reference)
+  {
+    std::swap(description.reference->row, description.reference->column);
+  }
+}
+
 }  // namespace
 
 PlacedViews placeViews(const std::filesystem::path& folder, FolderDescription& description,
-                       const DatasetOptions& options)
+                       const Layout& layout, const std::optional<GridPosition>& wanted_reference)
 {
+  const bool own_order = layout.order == description.order.value_or(Order::RowMajor);
+  if (layout.order == Order::ColumnMajor)
+  {
+    transpose(description);
+  }
   std::vector<ViewFile>& files = description.views;
   std::sort(files.begin(), files.end(),
             [](const ViewFile& a, const ViewFile& b) { return a.number < b.number; });
@@ -235,8 +262,8 @@ PlacedViews placeViews(const std::filesystem::path& folder, FolderDescription& d
       positions ? makeFlip(positions->row_step < 0.0, positions->column_step < 0.0) : Flip::None);
 
   PlacedViews placed;
-  placed.flip = options.flip.value_or(own_flip);
-  placed.own_flip = placed.flip == own_flip;
+  placed.flip = layout.flip.value_or(own_flip);
+  placed.own_layout = placed.flip == own_flip && own_order;
   const auto place = [&](const GridPosition& number)
   {
     return GridPosition{flipsRows(placed.flip) ? grid.y + grid.br().y - 1 - number.row : number.row,
@@ -245,7 +272,7 @@ PlacedViews placeViews(const std::filesystem::path& folder, FolderDescription& d
   const StepRule steps(description, positions, placed.flip);
   const GridPosition nominal = description.reference.value_or(
       GridPosition{grid.y + (grid.height - 1) / 2, grid.x + (grid.width - 1) / 2});
-  const GridPosition reference = chooseReference(folder, files, options.reference, nominal);
+  const GridPosition reference = chooseReference(folder, files, wanted_reference, nominal);
   placed.reference = place(reference);
   placed.own_reference = reference == nominal;
   placed.reference_steps = stepsBetween(files, steps, nominal, reference);

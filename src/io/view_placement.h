@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "io/dataset_layout.h"
 #include "io/folder_description.h"
 
 namespace light_field_depth
@@ -16,13 +17,15 @@ struct PlacedViews
   cv::Point2d reference_steps;  ///< from the dataset's own reference view to the chosen one
   bool own_reference = true;    ///< the chosen one is the dataset's own
   Flip flip = Flip::None;       ///< that was applied
-  bool own_flip = true;         ///< the dataset says the same
+  bool own_layout = true;       ///< the dataset says the same, flip and order
 };
 
-/// Turns numbers and positions into View::grid and View::steps, and sorts the views.
+/// Turns numbers and positions into View::grid and View::steps, and sorts the views. Numbers, positions, grid
+/// and reference of the description change their rows for columns where the layout's order differs.
+/// @param wanted_reference numbered as in the files, the row first
 /// @throw InputError if a place is taken twice, the reference is not there or the positions make no grid
 PlacedViews placeViews(const std::filesystem::path& folder, FolderDescription& description,
-                       const DatasetOptions& options);
+                       const Layout& layout, const std::optional<GridPosition>& wanted_reference);
 
 }  // namespace light_field_depth
 

@@ -95,7 +95,13 @@ void addDatasetInputOptions(CLI::App& app, DatasetInputOptions& options)
   app.add_option("--input", options.folder, "Folder of the light field")->required();
   app.add_option("--views", options.views, "Views to publish: all, row, column, cross or star")
       ->capture_default_str();
-  app.add_option("--flip", options.flip, "Turn the order of none, rows, columns or both round");
+  app.add_option("--order", options.order, "auto, row-major or column-major: which number is the row")
+      ->capture_default_str();
+  app.add_option("--flip", options.flip, "Turn the order of none, rows, columns or both round, or auto")
+      ->capture_default_str();
+  app.add_option("--grid", options.grid, "ROWSxCOLUMNS of views that are named by one number");
+  app.add_option("--tiles", options.tiles, "ROWSxCOLUMNS of the views in one image");
+  app.add_option("--frame", options.frame, "Number or folder of the frame of a sequence (the first)");
   app.add_option("--reference", options.reference,
                  "ROW,COL of the reference view (the middle one by default)");
   app.add_option("--rate", options.rate_hz, "Frames a second")
@@ -117,9 +123,19 @@ void addDatasetInputOptions(CLI::App& app, DatasetInputOptions& options)
 CalibratedDataset readCalibratedDataset(const DatasetInputOptions& options)
 {
   DatasetOptions dataset_options;
-  if (!options.flip.empty())
+  dataset_options.order = orderOption(options.order);
+  dataset_options.flip = flipOption(options.flip);
+  if (!options.grid.empty())
   {
-    dataset_options.flip = flipFromString(options.flip);
+    dataset_options.grid = gridFromString("--grid", options.grid);
+  }
+  if (!options.tiles.empty())
+  {
+    dataset_options.tiles = gridFromString("--tiles", options.tiles);
+  }
+  if (!options.frame.empty())
+  {
+    dataset_options.frame = options.frame;
   }
   if (!options.reference.empty())
   {

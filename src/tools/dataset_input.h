@@ -16,7 +16,11 @@ struct DatasetInputOptions
 {
   std::string folder;
   std::string views = "all";
-  std::string flip;       ///< empty: as the dataset says
+  std::string order = "auto";
+  std::string flip = "auto";
+  std::string grid;       ///< "ROWSxCOLUMNS"; empty: found
+  std::string tiles;      ///< the same, of the views in one image
+  std::string frame;      ///< of a sequence; empty: the first
   std::string reference;  ///< "ROW,COL"; empty: the middle view
   double rate_hz = 1.0;
   std::string frame_id = "light_field_optical_frame";

@@ -38,7 +38,11 @@ struct Arguments
   std::vector<int> reference;
   std::vector<float> disparity_range;
   bool stated_range = false;
+  std::string order;
   std::string flip;
+  std::string grid;
+  std::string tiles;
+  std::string frame;
   bool dense = false;
   int threads = 0;
   bool save_intermediate = false;
@@ -64,9 +68,17 @@ void declare(CLI::App& app, Arguments& arguments)
   app.add_flag("--stated-range", arguments.stated_range,
                "search the range that the dataset's description states")
       ->excludes("--disparity-range");
-  app.add_option(
-      "--flip", arguments.flip,
-      "none, rows, columns or both: what is numbered against the convention (rows down, columns right)");
+  app.add_option("--order", arguments.order,
+                 "auto, row-major or column-major: which of a view's two numbers is the row")
+      ->default_val("auto");
+  app.add_option("--flip", arguments.flip,
+                 "auto, none, rows, columns or both: what is numbered against the convention (rows down, "
+                 "columns right)")
+      ->default_val("auto");
+  app.add_option("--grid", arguments.grid, "ROWSxCOLUMNS of views that are named by one number");
+  app.add_option("--tiles", arguments.tiles, "ROWSxCOLUMNS of the views in one image");
+  app.add_option("--frame", arguments.frame,
+                 "number or folder of the frame of a sequence; the first by default");
   app.add_flag("--dense", arguments.dense, "also write the extra dense cloud of all views");
   app.add_option("--threads", arguments.threads, "threads to work with; 0 takes one per processor")
       ->check(CLI::Range(0, MAX_THREADS));
@@ -116,9 +128,19 @@ lfd::DatasetOptions makeDatasetOptions(const Arguments& arguments)
   {
     options.reference = lfd::GridPosition{arguments.reference[0], arguments.reference[1]};
   }
-  if (!arguments.flip.empty())
+  options.order = lfd::orderOption(arguments.order);
+  options.flip = lfd::flipOption(arguments.flip);
+  if (!arguments.grid.empty())
   {
-    options.flip = lfd::flipFromString(arguments.flip);
+    options.grid = lfd::gridFromString("--grid", arguments.grid);
+  }
+  if (!arguments.tiles.empty())
+  {
+    options.tiles = lfd::gridFromString("--tiles", arguments.tiles);
+  }
+  if (!arguments.frame.empty())
+  {
+    options.frame = arguments.frame;
   }
   return options;
 }

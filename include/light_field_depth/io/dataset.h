@@ -25,11 +25,49 @@ std::string toString(Flip flip);
 /// The inverse of toString(). @throw InputError that lists the names.
 Flip flipFromString(const std::string& name);
 
+/// Which of a view's two numbers is the row. A single number counts along the rows, or down the columns.
+enum class Order
+{
+  RowMajor,    ///< the first number is the row
+  ColumnMajor  ///< the first number is the column
+};
+
+/// "row-major", "column-major".
+std::string toString(Order order);
+/// The inverse of toString(). @throw InputError that lists the names.
+Order orderFromString(const std::string& name);
+
+/// The value of an option --order: empty for "" and "auto". @throw InputError that lists the names.
+std::optional<Order> orderOption(const std::string& name);
+/// The value of an option --flip: empty for "" and "auto". @throw InputError that lists the names.
+std::optional<Flip> flipOption(const std::string& name);
+
+/// "ROWSxCOLUMNS", as in "9x17"; cv::Size has the columns as its width.
+/// @param option the name for messages @throw InputError
+cv::Size gridFromString(const std::string& option, const std::string& text);
+
+/// How much a dataset's claim of where its views stand is worth.
+enum class PlaceClaim
+{
+  Stated,       ///< by a description or by camera positions
+  TwoNumbers,   ///< by names with a row and a column: which is which and which way they run is usage
+  SingleNumber  ///< by names with one number: the shape of the grid is a guess as well
+};
+
+/// "stated", "two numbers", "single number".
+std::string toString(PlaceClaim claim);
+
 struct DatasetOptions
 {
-  std::optional<GridPosition> reference;  ///< numbered as in the dataset's files; the middle view when absent
-  std::optional<Flip> flip;               ///< what the dataset's own description says when absent
-  int threads = 0;                        ///< that decode images; 0 takes one per processor
+  /// Numbered as in the dataset's files, the row first; the middle view when absent.
+  std::optional<GridPosition> reference;
+  std::optional<Order> order;     ///< what the dataset's own description says when absent
+  std::optional<Flip> flip;       ///< what the dataset's own description says when absent
+  std::optional<cv::Size> grid;   ///< columns x rows of the views that one number names
+  std::optional<cv::Size> tiles;  ///< columns x rows of the views in one image
+  std::optional<std::string>
+      frame;        ///< of a sequence: its number, or its folder's name; the first when absent
+  int threads = 0;  ///< that decode images; 0 takes one per processor
 };
 
 /// A light field read from a folder.
@@ -39,10 +77,14 @@ struct Dataset
   /// numbers also where views are missing in between: disparities are always per step of the numbering.
   LightField light_field;
   std::string format;                             ///< "hci", "grid", "stanford" or "yaml"
+  PlaceClaim place_claim = PlaceClaim::Stated;    ///< before options and images were asked
+  Order order = Order::RowMajor;                  ///< that was applied
   Flip flip = Flip::None;                         ///< that was applied
   std::vector<std::filesystem::path> files;       ///< of LightField::views, in their order
   std::optional<DisparityRange> disparity_range;  ///< as the dataset's description states it, in px per step
   std::optional<std::filesystem::path> truth;     ///< a PFM with the disparity of the reference view
+  std::vector<std::string> notes;                 ///< sentences on what was left out, guessed or converted
+  std::vector<std::string> warnings;              ///< sentences on what may make the result wrong
 };
 
 /// Recognises the format of a folder by its files and reads all views, in parallel:

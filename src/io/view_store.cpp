@@ -1,0 +1,65 @@
+#include "io/view_store.h"
+
+#include <algorithm>
+#include <string>
+
+#include "light_field_depth/core/error.h"
+#include "light_field_depth/io/image_files.h"
+
+namespace light_field_depth
+{
+ViewStore::ViewStore(std::vector<ViewFile>& views, int threads) : pool_(threads)
+{
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    views[i].id = i;
+  }
+  views_ = views;
+  images_.resize(views.size());
+}
+
+void ViewStore::decode(const std::vector<std::size_t>& ids)
+{
+  std::vector<std::size_t> wanted;
+  std::copy_if(ids.begin(), ids.end(), std::back_inserter(wanted),
+               [&](std::size_t id) { return images_[id].empty(); });
+  std::vector<std::string> failures(wanted.size());
+  pool_.parallelFor(0, static_cast<int>(wanted.size()), 1,
+                    [&](int first, int last)
+                    {
+                      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+                      {
+                        try
+                        {
+                          images_[wanted[i]] = readImage(views_[wanted[i]].path);
+                        }
+                        catch (const InputError& error)
+                        {
+                          failures[i] = error.what();
+                        }
+                      }
+                    });
+  const auto failure =
+      std::find_if(failures.begin(), failures.end(), [](const std::string& text) { return !text.empty(); });
+  if (failure != failures.end())
+  {
+    throw InputError(*failure);
+  }
+}
+
+const cv::Mat& ViewStore::image(std::size_t id)
+{
+  decode({id});
+  return images_[id];
+}
+
+std::vector<std::size_t> idsOf(const std::vector<ViewFile>& views)
+{
+  std::vector<std::size_t> ids;
+  ids.reserve(views.size());
+  std::transform(views.begin(), views.end(), std::back_inserter(ids),
+                 [](const ViewFile& view) { return view.id; });
+  return ids;
+}
+
+}  // namespace light_field_depth

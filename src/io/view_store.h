@@ -1,0 +1,40 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_IO_VIEW_STORE_H
+#define LIGHT_FIELD_DEPTH_SRC_IO_VIEW_STORE_H
+
+#include <cstddef>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "io/folder_description.h"
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth
+{
+/// The images of a dataset, each decoded once and only when somebody asks for it. Used by one thread at a
+/// time; decodes on all of its own.
+class ViewStore
+{
+public:
+  /// Gives the views their ids. @param threads 0 takes one per processor
+  ViewStore(std::vector<ViewFile>& views, int threads);
+
+  /// Decodes what is not there yet. @param ids ViewFile::id
+  /// @throw InputError of the first view that cannot be decoded
+  void decode(const std::vector<std::size_t>& ids);
+
+  /// The image of a view, decoded now if need be. @throw InputError
+  const cv::Mat& image(std::size_t id);
+
+private:
+  std::vector<ViewFile> views_;
+  std::vector<cv::Mat> images_;
+  ThreadPool pool_;
+};
+
+/// The ids of all views, in their order.
+std::vector<std::size_t> idsOf(const std::vector<ViewFile>& views);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_IO_VIEW_STORE_H
