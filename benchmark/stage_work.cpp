@@ -81,11 +81,17 @@ StageWork smooth(const FrameSize& frame)
   constexpr double row_bytes = FLOAT * (5.0 + 1.0);
   constexpr double column_bytes = FLOAT * (5.0 + 1.0);
   constexpr double line_operations = 24.0;
-  const double runs = frame.refinements * settings.reweightings;
+  constexpr double sweeps = 2.0;
+  // The correction reads the system and writes the disparity; its own grids together are a third of a sweep.
+  constexpr double coarse_bytes = FLOAT * (4.0 + 2.0) + (row_bytes + column_bytes) / 3.0;
+  constexpr double coarse_operations = 16.0 + 2.0 * line_operations / 3.0;
+  const auto reweightings = static_cast<double>(settings.flat_px.size());
+  const double runs = frame.refinements * reweightings;
   return {"smooth",
-          frame.pixels *
-              (runs * (link_bytes + settings.sweeps * (row_bytes + column_bytes)) + PLANAR + 2.0 * FLOAT),
-          frame.pixels * runs * (link_operations + settings.sweeps * 2.0 * line_operations), Lane::Float};
+          frame.pixels * (runs * (link_bytes + sweeps * (row_bytes + column_bytes) + coarse_bytes) + PLANAR +
+                          2.0 * FLOAT),
+          frame.pixels * runs * (link_operations + sweeps * 2.0 * line_operations + coarse_operations),
+          Lane::Float};
 }
 
 StageWork confidence(const FrameSize& frame)

@@ -62,19 +62,19 @@ LightField wideBlock(const LightField& light_field)
 }
 
 const std::vector<Case> CASES = {
-    {"balanced", "cotton", MultiviewPreset::Balanced, {0.32, 1.5, 5.0}},
-    {"balanced", "antinous", MultiviewPreset::Balanced, {1.8, 8.5, 19.0}},
-    {"quality", "cotton", MultiviewPreset::Quality, {0.29, 1.4, 4.5}},
-    {"quality", "antinous", MultiviewPreset::Quality, {1.55, 7.0, 16.0}},
-    {"realtime", "cotton", MultiviewPreset::Realtime, {0.42, 2.0, 10.0}},
-    {"fast", "cotton", MultiviewPreset::Fast, {1.0, 15.0, 100.0}},
-    {"noise_3", "cotton", MultiviewPreset::Balanced, {3.2, 100.0, 100.0}, noisyCross(3.0)},
-    {"noise_5", "cotton", MultiviewPreset::Balanced, {9.0, 100.0, 100.0}, noisyCross(5.0)},
-    {"noise_8", "cotton", MultiviewPreset::Balanced, {20.0, 100.0, 100.0}, noisyCross(8.0)},
+    {"balanced", "cotton", MultiviewPreset::Balanced, {0.27, 1.15, 3.4}},
+    {"balanced", "antinous", MultiviewPreset::Balanced, {1.48, 2.7, 9.9}},
+    {"quality", "cotton", MultiviewPreset::Quality, {0.27, 1.2, 4.0}},
+    {"quality", "antinous", MultiviewPreset::Quality, {1.48, 2.8, 10.0}},
+    {"realtime", "cotton", MultiviewPreset::Realtime, {0.36, 1.3, 4.0}},
+    {"fast", "cotton", MultiviewPreset::Fast, {0.8, 3.4, 12.0}},
+    {"noise_3", "cotton", MultiviewPreset::Balanced, {2.6, 4.6, 16.0}, noisyCross(3.0)},
+    {"noise_5", "cotton", MultiviewPreset::Balanced, {4.9, 9.5, 31.0}, noisyCross(5.0)},
+    {"noise_8", "cotton", MultiviewPreset::Balanced, {18.5, 29.0, 55.0}, noisyCross(8.0)},
     // Other noise of the same strength gave 4.9 to 5.6.
-    {"noise_3", "antinous", MultiviewPreset::Balanced, {5.8, 31.0, 100.0}, noisyCross(3.0)},
-    {"row", "cotton", MultiviewPreset::Balanced, {1.2, 5.0, 100.0}, middleRow},
-    {"wide_block", "cotton", MultiviewPreset::Balanced, {1.2, 5.0, 100.0}, wideBlock},
+    {"noise_3", "antinous", MultiviewPreset::Balanced, {5.4, 12.0, 29.0}, noisyCross(3.0)},
+    {"row", "cotton", MultiviewPreset::Balanced, {0.3, 1.5, 4.6}, middleRow},
+    {"wide_block", "cotton", MultiviewPreset::Balanced, {0.28, 1.2, 3.7}, wideBlock},
 };
 
 std::ostream& operator<<(std::ostream& stream, const Case& test)

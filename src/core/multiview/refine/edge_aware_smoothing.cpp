@@ -15,16 +15,12 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
-/// Rows that are worked on while they are in the cache of a core; even.
-constexpr int BAND_ROWS = 2 * ROWS_AT_ONCE;
-constexpr int COLUMNS_PER_CHUNK = 128;
 
 }  // namespace
 
 /// Of one chunk at work.
 struct EdgeAwareSmoother::Scratch
 {
-  std::vector<float> eliminations;
   std::vector<std::uint16_t> from_left;
   std::vector<std::uint16_t> from_above;
 };
@@ -71,151 +67,31 @@ void EdgeAwareSmoother::setGuide(const PlanarImage& guide, const SmoothingSettin
   guide_above_.row(0).setTo(0.0F);
 }
 
-/// One system, in which rows and columns are solved in turn.
-class EdgeAwareSmoother::Sweep
-{
-public:
-  Sweep(EdgeAwareSmoother& smoother, const cv::Mat& weight, const cv::Mat& target, float flat_px,
-        ThreadPool& pool, cv::Mat& disparity)
-      : smoother_(smoother), weight_(weight), target_(target), flat_px_(flat_px), pool_(pool),
-        disparity_(disparity), width_(disparity.cols), height_(disparity.rows)
-  {
-    smoother_.link_left_.create(height_, width_ + 1, CV_32FC1);
-    smoother_.link_above_.create(height_ + 1, width_, CV_32FC1);
-    smoother_.link_above_.row(height_).setTo(0.0F);
-    smoother_.solution_.create(disparity.size(), CV_32FC1);
-  }
-
-  /// Every second row given those between them, then those. A band does both but for its last row, which
-  /// waits for the first one of the next band.
-  /// @param update_links of this disparity, before anything changes
-  void solveRows(bool update_links)
-  {
-    pool_.parallelFor(0, height_, BAND_ROWS,
-                      [&](int first, int last)
-                      {
-                        if (update_links)
-                        {
-                          updateLinks(first, last);
-                        }
-                        solveEverySecond(first, last, 2);
-                        solveEverySecond(first + 1, last < height_ ? last - 1 : last, 2);
-                      });
-    const int bands = (height_ - 1) / BAND_ROWS;
-    pool_.parallelFor(0, bands, ROWS_AT_ONCE,
-                      [&](int first, int last)
-                      { solveEverySecond((first + 1) * BAND_ROWS - 1, last * BAND_ROWS, BAND_ROWS); });
-  }
-
-  /// All columns, given the columns beside them before the call.
-  void solveColumns()
-  {
-    pool_.parallelFor(0, width_, COLUMNS_PER_CHUNK,
-                      [&](int first, int last) {
-                        smoother_.scratch_.use([&](Scratch& scratch) { solveColumns(first, last, scratch); });
-                      });
-    cv::swap(smoother_.solution_, disparity_);
-  }
-
-private:
-  void updateLinks(int first, int last)
-  {
-    for (int y = first; y < last; ++y)
-    {
-      linkRow({smoother_.guide_left_.ptr<float>(y), smoother_.guide_above_.ptr<float>(y),
-               disparity_.ptr<float>(y), disparity_.ptr<float>(std::max(y - 1, 0)), width_, flat_px_,
-               smoother_.link_left_.ptr<float>(y), smoother_.link_above_.ptr<float>(y)});
-    }
-  }
-
-  SystemRow rowOf(int y)
-  {
-    return {weight_.ptr<float>(y),
-            target_.ptr<float>(y),
-            smoother_.link_left_.ptr<float>(y),
-            smoother_.link_above_.ptr<float>(y),
-            smoother_.link_above_.ptr<float>(y + 1),
-            disparity_.ptr<float>(std::max(y - 1, 0)),
-            disparity_.ptr<float>(std::min(y + 1, height_ - 1)),
-            disparity_.ptr<float>(y)};
-  }
-
-  /// The rows first, first + step and so on before `last`.
-  void solveEverySecond(int first, int last, int step)
-  {
-    std::array<SystemRow, ROWS_AT_ONCE> rows;
-    int count = 0;
-    for (int y = first; y < last; y += step)
-    {
-      rows[static_cast<std::size_t>(count++)] = rowOf(y);
-    }
-    smoother_.scratch_.use(
-        [&](Scratch& scratch)
-        {
-          scratch.eliminations.resize(std::max(scratch.eliminations.size(), rowScratch(width_)));
-          multiview::solveRows(rows.data(), count, width_, scratch.eliminations.data());
-        });
-  }
-
-  void solveColumns(int first, int last, Scratch& scratch)
-  {
-    const auto count = static_cast<std::size_t>(last - first);
-    const std::size_t size = count * static_cast<std::size_t>(height_);
-    scratch.eliminations.resize(std::max(scratch.eliminations.size(), 2 * size));
-    float* const factors = scratch.eliminations.data();
-    float* const values = factors + size;
-    ColumnStep step;
-    step.first = first;
-    step.last = last;
-    step.width = width_;
-    step.factor_above = step.value_above = smoother_.link_above_.ptr<float>(0);  // 0, as nothing is above
-    step.factor = factors;
-    step.value = values;
-    for (int y = 0; y < height_; ++y)
-    {
-      step.weight = weight_.ptr<float>(y);
-      step.target = target_.ptr<float>(y);
-      step.left = smoother_.link_left_.ptr<float>(y);
-      step.up = smoother_.link_above_.ptr<float>(y);
-      step.down = smoother_.link_above_.ptr<float>(y + 1);
-      step.disparity = disparity_.ptr<float>(y);
-      eliminateColumns(step);
-      step.factor_above = step.factor;
-      step.value_above = step.value;
-      step.factor += count;
-      step.value += count;
-    }
-    const float* below = smoother_.link_above_.ptr<float>(height_) + first;  // 0, as nothing is below
-    for (int y = height_ - 1; y >= 0; --y)
-    {
-      const std::size_t line = count * static_cast<std::size_t>(y);
-      float* const solution = smoother_.solution_.ptr<float>(y) + first;
-      substituteColumns(values + line, factors + line, below, last - first, solution);
-      below = solution;
-    }
-  }
-
-  EdgeAwareSmoother& smoother_;
-  const cv::Mat& weight_;
-  const cv::Mat& target_;
-  float flat_px_;
-  ThreadPool& pool_;
-  cv::Mat& disparity_;
-  int width_;
-  int height_;
-};
-
 void EdgeAwareSmoother::run(const cv::Mat& weight, const cv::Mat& target, const SmoothingSettings& settings,
                             ThreadPool& pool, cv::Mat& disparity)
 {
-  Sweep sweep(*this, weight, target, settings.flat_px, pool, disparity);
-  for (int i = 0; i < settings.reweightings; ++i)
+  link_left_.create(disparity.rows, disparity.cols + 1, CV_32FC1);
+  link_above_.create(disparity.rows + 1, disparity.cols, CV_32FC1);
+  link_above_.row(disparity.rows).setTo(0.0F);
+  const LinkedGrid grid{weight, target, link_left_, link_above_, disparity};
+  for (const float flat_px : settings.flat_px)
   {
-    for (int k = 0; k < settings.sweeps; ++k)
-    {
-      sweep.solveRows(k == 0);
-      sweep.solveColumns();
-    }
+    lines_.solveRows(
+        grid, [&](int first, int last) { updateLinks(disparity, flat_px, first, last); }, pool);
+    lines_.solveColumns(grid, pool);
+    coarse_.correct(grid, pool);
+    lines_.solveRows(grid, {}, pool);
+    lines_.solveColumns(grid, pool);
+  }
+}
+
+void EdgeAwareSmoother::updateLinks(const cv::Mat& disparity, float flat_px, int first, int last)
+{
+  for (int y = first; y < last; ++y)
+  {
+    linkRow({guide_left_.ptr<float>(y), guide_above_.ptr<float>(y), disparity.ptr<float>(y),
+             disparity.ptr<float>(std::max(y - 1, 0)), disparity.cols, flat_px, link_left_.ptr<float>(y),
+             link_above_.ptr<float>(y)});
   }
 }
 

@@ -1,10 +1,14 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_EDGE_AWARE_SMOOTHING_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_EDGE_AWARE_SMOOTHING_H
 
+#include <array>
+
 #include <opencv2/core.hpp>
 
 #include "core/base/scratch_pool.h"
 #include "core/light_field/view_set.h"
+#include "core/multiview/refine/coarse_correction.h"
+#include "core/multiview/refine/line_solver.h"
 #include "light_field_depth/core/thread_pool.h"
 
 namespace light_field_depth::multiview
@@ -13,13 +17,15 @@ struct SmoothingSettings
 {
   float strength = 200.0F;          ///< alpha, against the curvature of the data
   float image_edge_decay = 100.0F;  ///< kappa: links weaken by exp(-kappa * change of colour / 765)
-  float flat_px = 0.015F;           ///< eps: changes of the disparity above this are charged linearly
-  int reweightings = 2;
-  int sweeps = 2;
+  /// eps of one reweighting after the other: changes of the disparity above it are charged linearly. Wide at
+  /// first, so that what is far from the minimum comes near it before steps are told from slopes.
+  std::array<float, 3> flat_px = {0.25F, 0.0625F, 0.015F};
 };
 
 /// Minimises  sum_p w_p (d_p - t_p)^2 + sum_pq s_pq(d) (d_p - d_q)^2  over 4-neighbours by reweighted
-/// least squares, lines solved exactly, rows and columns in turn. Keeps its memory; one call at a time.
+/// least squares: for each reweighting the lines are solved exactly, rows and columns in turn, then what is
+/// wrong over many pixels is corrected on coarser grids, then the lines again. Keeps its memory; one call at
+/// a time.
 class EdgeAwareSmoother
 {
 public:
@@ -35,13 +41,15 @@ public:
 
 private:
   struct Scratch;
-  class Sweep;
+
+  void updateLinks(const cv::Mat& disparity, float flat_px, int first, int last);
 
   cv::Mat guide_left_;   // link strength between (x - 1, y) and (x, y) from the image
   cv::Mat guide_above_;  // between (x, y - 1) and (x, y)
   cv::Mat link_left_;    // with the disparity's part; one more column, and 0 at both ends
   cv::Mat link_above_;   // one more row, and 0 in the first and the last
-  cv::Mat solution_;
+  LineSolver lines_;
+  CoarseCorrection coarse_;
   ScratchPool<Scratch> scratch_;
 };
 

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/light_field/pixel_kernels.h"
+#include "core/multiview/refine/coarse_correction.h"
 #include "core/multiview/refine/edge_aware_smoothing.h"
 #include "core/multiview/refine/smoothing_kernels.h"
 #include "support/instruction_sets.h"
@@ -201,7 +202,39 @@ TEST_P(SmoothingKernels, StepsAlongColumnsEqualThePlainVersion)
   }
 }
 
-/// The smoothing row by row and column by column as its description says, without bands and chunks.
+/// Rows, then columns, as the description of the line solver says, without bands and chunks.
+void sweepPlainly(const System& system, cv::Mat& values)
+{
+  const int width = values.cols;
+  std::vector<float> scratch(rowScratch(width));
+  for (const int parity : {0, 1})
+  {
+    for (int y = parity; y < values.rows; y += 2)
+    {
+      const SystemRow row = system.row(y, values);
+      solveRowsPlain(&row, 1, width, scratch.data());
+    }
+  }
+  cv::Mat factor(values.size(), CV_32FC1);
+  cv::Mat value(values.size(), CV_32FC1);
+  for (int y = 0; y < values.rows; ++y)
+  {
+    const int above = std::max(y - 1, 0);
+    const SystemRow row = system.row(y, values);
+    const float* const none = system.up.ptr<float>(0);
+    eliminateColumnsPlain({row.weight, row.target, row.left, row.up, row.down, row.values, 0, width, width,
+                           y > 0 ? factor.ptr<float>(above) : none, y > 0 ? value.ptr<float>(above) : none,
+                           factor.ptr<float>(y), value.ptr<float>(y)});
+  }
+  value.copyTo(values);
+  for (int y = values.rows - 2; y >= 0; --y)
+  {
+    substituteColumnsPlain(value.ptr<float>(y), factor.ptr<float>(y), values.ptr<float>(y + 1), width,
+                           values.ptr<float>(y));
+  }
+}
+
+/// The smoothing as its description says, without bands and chunks but for the correction on coarser grids.
 cv::Mat smoothedPlainly(const PlanarImage& guide, const cv::Mat& weight, const cv::Mat& target,
                         const SmoothingSettings& settings, const cv::Mat& start)
 {
@@ -226,40 +259,19 @@ cv::Mat smoothedPlainly(const PlanarImage& guide, const cv::Mat& weight, const c
     }
   }
   cv::Mat values = start.clone();
-  std::vector<float> scratch(rowScratch(width));
-  for (int i = 0; i < settings.reweightings * settings.sweeps; ++i)
+  ThreadPool pool(1);
+  CoarseCorrection coarse;
+  for (const float flat_px : settings.flat_px)
   {
-    for (int y = 0; y < height && i % settings.sweeps == 0; ++y)
-    {
-      linkRowPlain({guide_left.ptr<float>(y), guide_above.ptr<float>(y), values.ptr<float>(y),
-                    values.ptr<float>(std::max(y - 1, 0)), width, settings.flat_px, system.left.ptr<float>(y),
-                    system.up.ptr<float>(y)});
-    }
-    for (const int parity : {0, 1})
-    {
-      for (int y = parity; y < height; y += 2)
-      {
-        const SystemRow row = system.row(y, values);
-        solveRowsPlain(&row, 1, width, scratch.data());
-      }
-    }
-    cv::Mat factor(height, width, CV_32FC1);
-    cv::Mat value(height, width, CV_32FC1);
     for (int y = 0; y < height; ++y)
     {
-      const int above = std::max(y - 1, 0);
-      const SystemRow row = system.row(y, values);
-      const float* const none = system.up.ptr<float>(0);
-      eliminateColumnsPlain({row.weight, row.target, row.left, row.up, row.down, row.values, 0, width, width,
-                             y > 0 ? factor.ptr<float>(above) : none, y > 0 ? value.ptr<float>(above) : none,
-                             factor.ptr<float>(y), value.ptr<float>(y)});
+      linkRowPlain({guide_left.ptr<float>(y), guide_above.ptr<float>(y), values.ptr<float>(y),
+                    values.ptr<float>(std::max(y - 1, 0)), width, flat_px, system.left.ptr<float>(y),
+                    system.up.ptr<float>(y)});
     }
-    value.copyTo(values);
-    for (int y = height - 2; y >= 0; --y)
-    {
-      substituteColumnsPlain(value.ptr<float>(y), factor.ptr<float>(y), values.ptr<float>(y + 1), width,
-                             values.ptr<float>(y));
-    }
+    sweepPlainly(system, values);
+    coarse.correct({system.weight, system.target, system.left, system.up, values}, pool);
+    sweepPlainly(system, values);
   }
   return values;
 }
