@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "accuracy_table.h"
+#include "camera_model.h"
 #include "contestant.h"
 #include "light_field_depth/core/pipeline.h"
 #include "scene.h"
@@ -76,6 +77,21 @@ Change grey()
   return toEveryView([](cv::Mat& image, cv::RNG& /*random*/) { image = toGrey(image); });
 }
 
+Change cameras(const CameraModel& model)
+{
+  return [model](const LightField& light_field)
+  { return std::optional<LightField>(photograph(light_field, model)); };
+}
+
+/// Cameras that stand as exactly as rendered views do.
+CameraModel inPlace()
+{
+  CameraModel model;
+  model.shift_px = 0.0;
+  model.roll_degrees = 0.0;
+  return model;
+}
+
 /// The reference and the views at these positions beside it, all of which must be there.
 Change only(const std::vector<GridPosition>& from_reference)
 {
@@ -124,6 +140,8 @@ const std::vector<Condition>& conditions()
       {"noise, sigma 8", noise(8.0)},
       {"grey", grey()},
       {"gains of 10 % and offsets of 8 levels", exposureDifferences(10.0, 8.0)},
+      {"camera model", cameras({})},
+      {"camera model, without shifts and rolls", cameras(inPlace())},
       {"one row, 9 views", only({{0, -4}, {0, -3}, {0, -2}, {0, -1}, {0, 1}, {0, 2}, {0, 3}, {0, 4}})},
       {"one row, 3 views", only({{0, -1}, {0, 1}})},
       {"two views, four steps apart", only({{0, 4}})},
