@@ -1,7 +1,6 @@
 #include "light_field_depth/io/dataset.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <regex>
 #include <system_error>
@@ -11,6 +10,7 @@
 #include "io/folder_description.h"
 #include "io/view_placement.h"
 #include "io/view_store.h"
+#include "light_field_depth/core/enum_names.h"
 #include "light_field_depth/core/error.h"
 
 namespace light_field_depth
@@ -23,12 +23,12 @@ constexpr const char* DESCRIPTION_FILE = "light_field.yaml";
 
 constexpr int MAX_GRID_SIDE = 999;
 
-constexpr std::array<std::pair<Order, const char*>, 2> ORDER_NAMES = {{
+constexpr EnumNames<Order, 2> ORDER_NAMES = {{
     {Order::RowMajor, "row-major"},
     {Order::ColumnMajor, "column-major"},
 }};
 
-constexpr std::array<std::pair<Flip, const char*>, 4> FLIP_NAMES = {{
+constexpr EnumNames<Flip, 4> FLIP_NAMES = {{
     {Flip::None, "none"},
     {Flip::Rows, "rows"},
     {Flip::Columns, "columns"},
@@ -94,38 +94,30 @@ Calibration calibrationFrom(const CameraDescription& camera, const cv::Size& siz
 
 std::string toString(Flip flip)
 {
-  const auto* const found = std::find_if(FLIP_NAMES.begin(), FLIP_NAMES.end(),
-                                         [&](const auto& entry) { return entry.first == flip; });
-  return found->second;
+  return enumName(FLIP_NAMES, flip);
 }
 
 Flip flipFromString(const std::string& name)
 {
-  const auto* const found = std::find_if(FLIP_NAMES.begin(), FLIP_NAMES.end(),
-                                         [&](const auto& entry) { return name == entry.second; });
-  if (found == FLIP_NAMES.end())
+  if (const auto value = findEnumValue(FLIP_NAMES, name))
   {
-    throw InputError("There is no flip '" + name + "'; choose auto, none, rows, columns or both.");
+    return *value;
   }
-  return found->first;
+  throw InputError("There is no flip '" + name + "'; choose auto, none, rows, columns or both.");
 }
 
 std::string toString(Order order)
 {
-  const auto* const found = std::find_if(ORDER_NAMES.begin(), ORDER_NAMES.end(),
-                                         [&](const auto& entry) { return entry.first == order; });
-  return found->second;
+  return enumName(ORDER_NAMES, order);
 }
 
 Order orderFromString(const std::string& name)
 {
-  const auto* const found = std::find_if(ORDER_NAMES.begin(), ORDER_NAMES.end(),
-                                         [&](const auto& entry) { return name == entry.second; });
-  if (found == ORDER_NAMES.end())
+  if (const auto value = findEnumValue(ORDER_NAMES, name))
   {
-    throw InputError("There is no order '" + name + "'; choose auto, row-major or column-major.");
+    return *value;
   }
-  return found->first;
+  throw InputError("There is no order '" + name + "'; choose auto, row-major or column-major.");
 }
 
 std::optional<Order> orderOption(const std::string& name)

@@ -8,6 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "light_field_depth/core/enum_names.h"
 #include "light_field_depth/core/error.h"
 
 namespace light_field_depth
@@ -16,7 +17,7 @@ namespace
 {
 constexpr int MIN_VIEW_SIDE_PX = 16;
 
-constexpr std::array<std::pair<ViewSelection, const char*>, 6> SELECTION_NAMES = {{
+constexpr EnumNames<ViewSelection, 6> SELECTION_NAMES = {{
     {ViewSelection::Auto, "auto"},
     {ViewSelection::Row, "row"},
     {ViewSelection::Column, "column"},
@@ -222,21 +223,12 @@ LightField makeLightField(std::vector<View> views, std::optional<GridPosition> r
 
 std::string toString(ViewSelection selection)
 {
-  const auto* const found = std::find_if(SELECTION_NAMES.begin(), SELECTION_NAMES.end(),
-                                         [&](const auto& entry) { return entry.first == selection; });
-  return found->second;
+  return enumName(SELECTION_NAMES, selection);
 }
 
 ViewSelection viewSelectionFromString(const std::string& name)
 {
-  const auto* const found = std::find_if(SELECTION_NAMES.begin(), SELECTION_NAMES.end(),
-                                         [&](const auto& entry) { return name == entry.second; });
-  if (found == SELECTION_NAMES.end())
-  {
-    throw InputError("There is no view selection '" + name +
-                     "'; choose auto, row, column, cross, star or all.");
-  }
-  return found->first;
+  return enumValue(SELECTION_NAMES, name, "view selection");
 }
 
 LightField selectViews(const LightField& light_field, ViewSelection selection)

@@ -1,18 +1,15 @@
-#include <algorithm>
-#include <array>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
-#include "light_field_depth/core/error.h"
+#include "light_field_depth/core/enum_names.h"
 #include "light_field_depth/core/multiview_options.h"
 
 namespace light_field_depth
 {
 namespace
 {
-constexpr std::array<std::pair<MultiviewPreset, const char*>, 4> PRESET_NAMES = {{
+constexpr EnumNames<MultiviewPreset, 4> PRESET_NAMES = {{
     {MultiviewPreset::Quality, "quality"},
     {MultiviewPreset::Balanced, "balanced"},
     {MultiviewPreset::Realtime, "realtime"},
@@ -52,20 +49,12 @@ Number chosenNumber(Number option, Number preset)
 
 std::string toString(MultiviewPreset preset)
 {
-  const auto* const found = std::find_if(PRESET_NAMES.begin(), PRESET_NAMES.end(),
-                                         [&](const auto& entry) { return entry.first == preset; });
-  return found->second;
+  return enumName(PRESET_NAMES, preset);
 }
 
 MultiviewPreset multiviewPresetFromString(const std::string& name)
 {
-  const auto* const found = std::find_if(PRESET_NAMES.begin(), PRESET_NAMES.end(),
-                                         [&](const auto& entry) { return name == entry.second; });
-  if (found == PRESET_NAMES.end())
-  {
-    throw InputError("There is no preset '" + name + "'; choose quality, balanced, realtime or fast.");
-  }
-  return found->first;
+  return enumValue(PRESET_NAMES, name, "preset");
 }
 
 bool operator==(const MultiviewOptions& left, const MultiviewOptions& right)

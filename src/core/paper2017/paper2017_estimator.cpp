@@ -1,52 +1,26 @@
 #include "core/paper2017/paper2017_estimator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "core/paper2017/disparity_fusion.h"
 #include "core/paper2017/volume_matches.h"
-#include "light_field_depth/core/error.h"
+#include "light_field_depth/core/enum_names.h"
 
 namespace light_field_depth
 {
 namespace
 {
-template <typename Value, std::size_t COUNT>
-using Names = std::array<std::pair<Value, const char*>, COUNT>;
-
-constexpr Names<FlowInitializer, 2> INITIALIZER_NAMES = {{
+constexpr EnumNames<FlowInitializer, 2> INITIALIZER_NAMES = {{
     {FlowInitializer::Cpm, "cpm"},
     {FlowInitializer::Dis, "dis"},
 }};
-constexpr Names<MatchDirections, 2> DIRECTIONS_NAMES = {{
+constexpr EnumNames<MatchDirections, 2> DIRECTIONS_NAMES = {{
     {MatchDirections::Forward, "forward"},
     {MatchDirections::Both, "both"},
 }};
-
-template <typename Value, std::size_t COUNT>
-std::string nameOf(const Names<Value, COUNT>& names, Value value)
-{
-  return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == value; })
-      ->second;
-}
-
-template <typename Value, std::size_t COUNT>
-Value valueOf(const Names<Value, COUNT>& names, const std::string& name, const std::string& what)
-{
-  std::string known;
-  for (const auto& entry : names)
-  {
-    if (name == entry.second)
-    {
-      return entry.first;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(entry.second);
-  }
-  throw InputError("There is no " + what + " '" + name + "'; choose one of: " + known + ".");
-}
 
 /// The mean of two matches of one pixel, weighted by their confidence, or the one that there is.
 SparseDisparity combined(const SparseDisparity& a, const SparseDisparity& b)
@@ -274,22 +248,22 @@ DisparityEstimate Run::estimate()
 
 std::string toString(FlowInitializer initializer)
 {
-  return nameOf(INITIALIZER_NAMES, initializer);
+  return enumName(INITIALIZER_NAMES, initializer);
 }
 
 FlowInitializer flowInitializerFromString(const std::string& name)
 {
-  return valueOf(INITIALIZER_NAMES, name, "initializer");
+  return enumValue(INITIALIZER_NAMES, name, "initializer");
 }
 
 std::string toString(MatchDirections directions)
 {
-  return nameOf(DIRECTIONS_NAMES, directions);
+  return enumName(DIRECTIONS_NAMES, directions);
 }
 
 MatchDirections matchDirectionsFromString(const std::string& name)
 {
-  return valueOf(DIRECTIONS_NAMES, name, "choice of match directions");
+  return enumValue(DIRECTIONS_NAMES, name, "choice of match directions");
 }
 
 std::vector<std::string> validate(const Paper2017Options& options)

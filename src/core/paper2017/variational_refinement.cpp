@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/paper2017/sor_solver.h"
-#include "light_field_depth/core/error.h"
+#include "light_field_depth/core/enum_names.h"
 
 namespace light_field_depth
 {
@@ -20,7 +20,7 @@ constexpr float PSI_EPSILON_SQUARED = 1e-6F;
 /// Added to the squared gradients that normalise the data term, in grey levels.
 constexpr float NORMALIZATION_SQUARED = 0.01F;
 
-constexpr std::array<std::pair<RefinementViews, const char*>, 3> VIEWS_NAMES = {{
+constexpr EnumNames<RefinementViews, 3> VIEWS_NAMES = {{
     {RefinementViews::All, "all"},
     {RefinementViews::Adjacent, "adjacent"},
     {RefinementViews::Outermost, "outermost"},
@@ -293,21 +293,12 @@ std::vector<std::size_t> refinementViews(const LightField& light_field,
 
 std::string toString(RefinementViews views)
 {
-  const auto* const found = std::find_if(VIEWS_NAMES.begin(), VIEWS_NAMES.end(),
-                                         [&](const auto& entry) { return entry.first == views; });
-  return found->second;
+  return enumName(VIEWS_NAMES, views);
 }
 
 RefinementViews refinementViewsFromString(const std::string& name)
 {
-  const auto* const found = std::find_if(VIEWS_NAMES.begin(), VIEWS_NAMES.end(),
-                                         [&](const auto& entry) { return name == entry.second; });
-  if (found == VIEWS_NAMES.end())
-  {
-    throw InputError("There is no choice of refinement views '" + name +
-                     "'; choose all, adjacent or outermost.");
-  }
-  return found->first;
+  return enumValue(VIEWS_NAMES, name, "choice of refinement views");
 }
 
 std::vector<std::string> validate(const VariationalOptions& options)

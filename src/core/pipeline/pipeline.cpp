@@ -1,7 +1,6 @@
 #include "light_field_depth/core/pipeline.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -10,6 +9,7 @@
 
 #include "core/multiview/multiview_estimator.h"
 #include "core/paper2017/paper2017_estimator.h"
+#include "light_field_depth/core/enum_names.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/geometry.h"
 
@@ -17,7 +17,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr std::array<std::pair<Method, const char*>, 2> METHOD_NAMES = {{
+constexpr EnumNames<Method, 2> METHOD_NAMES = {{
     {Method::Multiview, "multiview"},
     {Method::Paper2017, "paper2017"},
 }};
@@ -90,25 +90,12 @@ PointAllocator roomOr(const PointAllocator& room, std::vector<ColoredPoint>& poi
 
 std::string toString(Method method)
 {
-  const auto* const found = std::find_if(METHOD_NAMES.begin(), METHOD_NAMES.end(),
-                                         [&](const auto& entry) { return entry.first == method; });
-  return found->second;
+  return enumName(METHOD_NAMES, method);
 }
 
 Method methodFromString(const std::string& name)
 {
-  const auto* const found = std::find_if(METHOD_NAMES.begin(), METHOD_NAMES.end(),
-                                         [&](const auto& entry) { return name == entry.second; });
-  if (found == METHOD_NAMES.end())
-  {
-    std::string names;
-    for (const std::string& known : methodNames())
-    {
-      names += (names.empty() ? "" : ", ") + known;
-    }
-    throw InputError("There is no method '" + name + "'; choose one of: " + names + ".");
-  }
-  return found->first;
+  return enumValue(METHOD_NAMES, name, "method");
 }
 
 std::vector<std::string> methodNames()
