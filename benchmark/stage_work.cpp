@@ -28,7 +28,7 @@ StageWork visibleCost(const FrameSize& frame)
 {
   const double operations = 4.0 * frame.channels + 6.0;  // also: is it hidden, mask and count
   const double bytes = PLANAR * (frame.views + 1.0) + frame.views + frame.labels;
-  return {"visible cost", frame.visibility_passes * frame.pixels * bytes,
+  return {"visible_cost", frame.visibility_passes * frame.pixels * bytes,
           frame.visibility_passes * frame.pixels * frame.labels * frame.views * operations, Lane::Byte};
 }
 
@@ -120,7 +120,7 @@ std::vector<StageWork> stageWork(const FrameSize& frame)
           median(frame),
           visibility(frame),
           visibleCost(frame),
-          {"edge sides", frame.pixels * (2.0 * FLOAT + PLANAR), 0.0, Lane::None},
+          {"boundary_pixels", frame.pixels * (2.0 * FLOAT + PLANAR), 0.0, Lane::None},
           linearize(frame),
           smooth(frame),
           confidence(frame)};

@@ -26,7 +26,8 @@ using IntermediateSink = std::function<void(const std::string& name, const cv::M
 /// Receives the name of the stage that begins and the fraction of the work done before it, 0..1.
 using ProgressSink = std::function<void(const std::string& stage, double fraction)>;
 
-/// What every stage of a run shares besides its data. Belongs to one run on one thread.
+/// What every stage of a run shares besides its data. Stages are named in small letters with underscores,
+/// as in 'visible_cost'. Belongs to one run on one thread.
 struct RunContext
 {
   explicit RunContext(ThreadPool& thread_pool) : pool(thread_pool) {}
@@ -35,6 +36,9 @@ struct RunContext
   std::vector<StageTime> stage_times;  ///< in order of first appearance; repeated stages are added up
   IntermediateSink save_intermediate;  ///< empty when nobody wants them
   ProgressSink progress;               ///< empty when nobody wants it
+
+  /// Hands an intermediate result to the sink, if there is one. An empty matrix is left out.
+  void save(const std::string& name, const cv::Mat& values) const;
 };
 
 /// Adds the time from its construction to its destruction to one stage of the context.

@@ -4,6 +4,14 @@
 
 namespace light_field_depth
 {
+void RunContext::save(const std::string& name, const cv::Mat& values) const
+{
+  if (save_intermediate && !values.empty())
+  {
+    save_intermediate(name, values);
+  }
+}
+
 StageTimer::StageTimer(RunContext& context, std::string stage)
     : context_(context), stage_(std::move(stage)), start_(std::chrono::steady_clock::now())
 {

@@ -157,7 +157,7 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   }
   if (request.view_disparities)
   {
-    const StageTimer timer(context, "view maps");
+    const StageTimer timer(context, "view_maps");
     multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool,
                            buffers_->view_maps);
     estimate.view_disparities = buffers_->view_maps;

@@ -22,14 +22,6 @@ constexpr int MAX_STEP = 12000;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
 
-void save(const RunContext& context, const char* name, const cv::Mat& values)
-{
-  if (context.save_intermediate && !values.empty())
-  {
-    context.save_intermediate(name, values);
-  }
-}
-
 PathSettings lastPaths(PathSettings paths, const SolverSettings& settings)
 {
   paths.small_change_penalty =
@@ -69,11 +61,11 @@ bool Solver::solve(const SolverSettings& settings, SearchIn where, RunContext& c
   }
   if (settings.decide_boundary_pixels)
   {
-    const StageTimer timer(context, "edge sides");
+    const StageTimer timer(context, "boundary_pixels");
     decideBoundaryPixels(guide(), settings.boundary_pixels, context.pool, disparity_, scratch_);
   }
   disparity_.copyTo(searched_);
-  save(context, "multiview_searched", searched_);
+  context.save("multiview_searched", searched_);
   refine(settings, context);
   judge(settings, context);
   return true;
@@ -124,7 +116,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
     fuseBackground(settings, context);
   }
   disparity_.copyTo(first_search_);
-  save(context, "multiview_first_search", first_search_);
+  context.save("multiview_first_search", first_search_);
   for (int pass = 0; pass < settings.visibility_passes; ++pass)
   {
     {
@@ -133,7 +125,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
       surfaces_.warp(disparity_, views_, labels_, context.pool);
     }
     {
-      const StageTimer timer(context, "visible cost");
+      const StageTimer timer(context, "visible_cost");
       cost_builder_.buildFromVisible(views_, labels_, bands_, surfaces_, cost, context.pool, volume_);
       if (settings.fuse_background)
       {
@@ -214,7 +206,7 @@ void Solver::fuseBackground(const SolverSettings& settings, RunContext& context)
   aggregate(settings, context);
   const StageTimer timer(context, "background");
   cv::swap(disparity_, searched_);
-  save(context, "multiview_background", searched_);
+  context.save("multiview_background", searched_);
   background_.fuse(volume_, aggregator_, paths_, searched_, context.pool, disparity_);
 }
 
@@ -257,9 +249,9 @@ void Solver::judge(const SolverSettings& settings, RunContext& context)
     const StageTimer timer(context, "linearize");
     linearizer_.run(views_, disparity_, settings.linearization, context.pool, linearization_);
   }
-  save(context, "multiview_curvature", linearization_.weight);
-  save(context, "multiview_residual", linearization_.residual);
-  save(context, "multiview_disagreement", linearization_.disagreement);
+  context.save("multiview_curvature", linearization_.weight);
+  context.save("multiview_residual", linearization_.residual);
+  context.save("multiview_disagreement", linearization_.disagreement);
   const StageTimer timer(context, "confidence");
   estimateConfidence({disparity_, searched_, first_search_, linearization_, settings.noise_sigma},
                      context.pool, confidence_);

@@ -63,14 +63,6 @@ DisparityRange rangeOf(const cv::Mat& disparity)
   return {minimum, std::max(*high, minimum + NARROWEST_PX)};
 }
 
-void save(const RunContext& context, const std::string& name, const cv::Mat& values)
-{
-  if (context.save_intermediate)
-  {
-    context.save_intermediate(name, values);
-  }
-}
-
 void announce(const RunContext& context, const std::string& stage, double fraction)
 {
   if (context.progress)
@@ -147,8 +139,8 @@ void Run::diffuse(const std::vector<VolumeMatches>& matches)
                                  options_.feature_flow, context_.pool));
     for (std::size_t i = 0; i < estimates.size(); ++i)
     {
-      save(context_, mapName("matches", volumes_[v], i), estimates[i].disparity);
-      save(context_, mapName("feature_flow", volumes_[v], i), dense_.back()[i].disparity);
+      context_.save(mapName("matches", volumes_[v], i), estimates[i].disparity);
+      context_.save(mapName("feature_flow", volumes_[v], i), dense_.back()[i].disparity);
     }
   }
 }
@@ -173,7 +165,7 @@ FusedDisparity Run::fuse()
                                   dense_[v][i], light_field_.views[volumes_[v].view_indices[i]]);
                             });
   FusedDisparity fused = fuseByMedian(warped, context_.pool);
-  save(context_, "median", fused.disparity);
+  context_.save("median", fused.disparity);
   return fused;
 }
 
@@ -238,7 +230,7 @@ DisparityEstimate Run::estimate()
   estimate.views_used = usedViews().size();
   if (request_.view_disparities)
   {
-    const StageTimer timer(context_, "view_disparities");
+    const StageTimer timer(context_, "view_maps");
     estimate.view_disparities = viewDisparities({estimate.disparity, estimate.confidence});
   }
   return estimate;

@@ -177,7 +177,7 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
   }
   if (request.dense_cloud)
   {
-    const StageTimer timer(context, "dense cloud");
+    const StageTimer timer(context, "dense_cloud");
     denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_,
                roomOr(request.dense_cloud_allocator, result.dense_cloud));
     result.estimate.view_disparities.clear();  // so that the next frame may have their memory
