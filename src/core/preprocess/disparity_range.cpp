@@ -54,7 +54,7 @@ SmallView shrink(const cv::Mat& image, int fine_halvings, int coarse_halvings)
 class RangeFinder
 {
 public:
-  RangeFinder(const LightField& light_field, ThreadPool& pool) : pool_(pool), arms_(armsOf(light_field))
+  RangeFinder(const LightField& light_field, ThreadPool& pool) : pool_(pool), arms_(axisArmsOf(light_field))
   {
     coarse_halvings_ = halvingsFor(light_field.size(), COARSE_SIDE_PX);
     fine_halvings_ = halvingsFor(light_field.size(), FINE_SIDE_PX);
@@ -100,7 +100,7 @@ private:
   void shrinkViews(const View& reference)
   {
     std::vector<const View*> views = {&reference};
-    for (const Arm& arm : arms_)
+    for (const AxisArm& arm : arms_)
     {
       views.insert(views.end(), arm.begin(), arm.end());
     }
@@ -138,7 +138,7 @@ private:
     plan.reference = coarse ? small_.front().coarse : small_.front().fine;
     std::size_t next = 1;
     double reach = 0.0;
-    for (const Arm& arm : arms_)
+    for (const AxisArm& arm : arms_)
     {
       SweepArm sweep_arm;
       for (std::size_t i = 0; i < arm.size(); ++i, ++next)
@@ -171,7 +171,7 @@ private:
   void sweep(Views which, int halvings)
   {
     const PlaneSweep plan = planSweep(which, halvings);
-    const CostVolume volume = sweepPlanes(plan, pool_);
+    const SweepCosts volume = sweepPlanes(plan, pool_);
     const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_);
     if (!support)
     {
@@ -186,7 +186,7 @@ private:
   }
 
   ThreadPool& pool_;
-  std::vector<Arm> arms_;
+  std::vector<AxisArm> arms_;
   int coarse_halvings_ = 0;
   int fine_halvings_ = 0;
   double nearest_ = 0.0;

@@ -39,7 +39,7 @@ class ExposureFinder
 public:
   ExposureFinder(const LightField& light_field, ThreadPool& pool, float max_displacement_px)
       : light_field_(light_field), pool_(pool), max_displacement_px_(max_displacement_px),
-        arms_(armsOf(light_field)), halvings_(halvingsFor(light_field.size(), SMALL_SIDE_PX)),
+        arms_(axisArmsOf(light_field)), halvings_(halvingsFor(light_field.size(), SMALL_SIDE_PX)),
         scale_(static_cast<float>(std::ldexp(1.0, -halvings_))), small_(light_field.views.size()),
         cut_off_(light_field.views.size()), normalized_(light_field.views.size())
   {
@@ -90,7 +90,8 @@ private:
     const View* const view = &light_field_.views[index];
     return index == light_field_.reference_index ||
            std::any_of(arms_.begin(), arms_.end(),
-                       [&](const Arm& arm) { return std::find(arm.begin(), arm.end(), view) != arm.end(); });
+                       [&](const AxisArm& arm)
+                       { return std::find(arm.begin(), arm.end(), view) != arm.end(); });
   }
 
   SweepView sweepView(const View& view) const
@@ -114,11 +115,11 @@ private:
     const float most = largestDisparity(arms_, max_displacement_px_);
     const double nearest = nearestDistance(arms_);
     PlaneSweep plan = planSweep({-most, most}, nearest);
-    for (const Arm& arm : arms_)
+    for (const AxisArm& arm : arms_)
     {
       plan.arms.push_back({sweepView(*arm.front())});
     }
-    const CostVolume volume = sweepPlanes(plan, pool_);
+    const SweepCosts volume = sweepPlanes(plan, pool_);
     std::vector<Match> matches = likelyMatches(plan, volume);
     const double farthest = farthestDistance(arms_);
     const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_);
@@ -129,7 +130,7 @@ private:
     plan = planSweep({plan.disparity(static_cast<float>(support->core.first) - 1.0F),
                       plan.disparity(static_cast<float>(support->core.last) + 1.0F)},
                      farthest);
-    for (const Arm& arm : arms_)
+    for (const AxisArm& arm : arms_)
     {
       SweepArm sweep_arm;
       for (const View* view : arm)
@@ -141,7 +142,7 @@ private:
     return likelyMatches(plan, sweepPlanes(plan, pool_));
   }
 
-  std::vector<Match> likelyMatches(const PlaneSweep& plan, const CostVolume& volume) const
+  std::vector<Match> likelyMatches(const PlaneSweep& plan, const SweepCosts& volume) const
   {
     const std::vector<float> labels = findLikelyLabels(volume, pool_);
     std::vector<Match> matches;
@@ -202,7 +203,7 @@ private:
   const LightField& light_field_;
   ThreadPool& pool_;
   float max_displacement_px_;
-  std::vector<Arm> arms_;
+  std::vector<AxisArm> arms_;
   int halvings_;
   float scale_;                      ///< of the reduced views
   std::vector<cv::Mat> small_;       ///< all views, reduced and smoothed, in colour

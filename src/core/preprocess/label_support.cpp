@@ -31,7 +31,7 @@ constexpr int PIXELS_PER_CHUNK = 4096;
 /// Labels nearer than this to the winner belong to the same minimum; 1.5 pixels of displacement.
 constexpr int RIVAL_DISTANCE = 3;
 
-void findWinnersIn(const CostVolume& volume, std::size_t first, std::size_t last, Winners& winners)
+void findWinnersIn(const SweepCosts& volume, std::size_t first, std::size_t last, Winners& winners)
 {
   const std::size_t count = last - first;
   for (int label = 0; label < volume.labels; ++label)
@@ -46,7 +46,7 @@ void findWinnersIn(const CostVolume& volume, std::size_t first, std::size_t last
   }
 }
 
-Winners findWinners(const CostVolume& volume, ThreadPool& pool)
+Winners findWinners(const SweepCosts& volume, ThreadPool& pool)
 {
   Winners winners;
   winners.label.assign(volume.area(), 0);
@@ -147,7 +147,7 @@ std::optional<LabelRange> coreOf(const Histogram& histogram)
 }
 
 /// Of a pixel inside a range of labels.
-int leastCost(const CostVolume& volume, const LabelRange& range, std::size_t pixel)
+int leastCost(const SweepCosts& volume, const LabelRange& range, std::size_t pixel)
 {
   int least = NO_COST;
   for (int label = range.first; label <= range.last; ++label)
@@ -254,7 +254,7 @@ std::optional<LabelRange> labelsOf(const PatchEvidence& evidence)
 
 /// Not 0 for pixels whose best label is outside the core and that are certain of it or that no label inside
 /// explains.
-std::vector<std::uint8_t> clearlyOutside(const LabelRange& core, const CostVolume& volume,
+std::vector<std::uint8_t> clearlyOutside(const LabelRange& core, const SweepCosts& volume,
                                          const Winners& winners, const Contrast& contrast, ThreadPool& pool)
 {
   std::vector<std::uint8_t> outside(volume.area(), 0);
@@ -278,7 +278,7 @@ std::vector<std::uint8_t> clearlyOutside(const LabelRange& core, const CostVolum
 }
 
 /// Widens the core by the labels of connected patches of pixels that are clearly outside it.
-LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners& winners,
+LabelRange widen(const LabelRange& core, const SweepCosts& volume, const Winners& winners,
                  const Contrast& contrast, ThreadPool& pool)
 {
   constexpr std::size_t MIN_PATCH_PX = 8;
@@ -304,7 +304,7 @@ LabelRange widen(const LabelRange& core, const CostVolume& volume, const Winners
 }
 
 /// Of the parabola through the costs of the best label and its neighbours.
-float vertexOfCost(const CostVolume& volume, int label, std::size_t pixel)
+float vertexOfCost(const SweepCosts& volume, int label, std::size_t pixel)
 {
   if (label == 0 || label == volume.labels - 1)
   {
@@ -321,7 +321,7 @@ float vertexOfCost(const CostVolume& volume, int label, std::size_t pixel)
 
 }  // namespace
 
-std::vector<float> findLikelyLabels(const CostVolume& volume, ThreadPool& pool)
+std::vector<float> findLikelyLabels(const SweepCosts& volume, ThreadPool& pool)
 {
   const Winners winners = findWinners(volume, pool);
   constexpr std::uint16_t SLIGHT_NOISE = SWEEP_COST_PER_GREY_LEVEL;
@@ -337,7 +337,7 @@ std::vector<float> findLikelyLabels(const CostVolume& volume, ThreadPool& pool)
   return labels;
 }
 
-std::optional<LabelSupport> findSupportedLabels(const CostVolume& volume, ThreadPool& pool)
+std::optional<LabelSupport> findSupportedLabels(const SweepCosts& volume, ThreadPool& pool)
 {
   const Winners winners = findWinners(volume, pool);
   const Contrast contrast(median(winners.cost));

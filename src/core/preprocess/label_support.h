@@ -30,11 +30,11 @@ struct LabelSupport
 /// they are certain, too, or if their best label costs clearly less than every label of the core. So neither
 /// noise nor repeated texture widens it, and a small object does.
 /// @return nothing if hardly any pixel is certain
-std::optional<LabelSupport> findSupportedLabels(const CostVolume& volume, ThreadPool& pool);
+std::optional<LabelSupport> findSupportedLabels(const SweepCosts& volume, ThreadPool& pool);
 
 /// For each pixel that would be certain of its best label if there were little noise, that label, refined
 /// between labels; NaN for the others. For those who want many and can bear a few wrong ones.
-std::vector<float> findLikelyLabels(const CostVolume& volume, ThreadPool& pool);
+std::vector<float> findLikelyLabels(const SweepCosts& volume, ThreadPool& pool);
 
 }  // namespace light_field_depth
 

@@ -142,10 +142,10 @@ private:
 
 }  // namespace
 
-CostVolume sweepPlanes(const PlaneSweep& sweep, ThreadPool& pool)
+SweepCosts sweepPlanes(const PlaneSweep& sweep, ThreadPool& pool)
 {
   constexpr int LABELS_PER_CHUNK = 1;
-  CostVolume volume;
+  SweepCosts volume;
   volume.labels = sweep.labels;
   volume.size = sweep.reference.size();
   volume.values.create(sweep.labels, volume.size.area(), CV_16UC1);

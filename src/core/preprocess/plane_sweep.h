@@ -36,7 +36,7 @@ struct PlaneSweep
 
 /// Matching costs: cost(label)[y * width + x] in sixteenths of a grey level, the mean over a window and over
 /// the arms but the worst.
-struct CostVolume
+struct SweepCosts
 {
   int labels = 0;
   cv::Size size;
@@ -54,7 +54,7 @@ constexpr int SWEEP_COST_PER_GREY_LEVEL = 16;
 
 /// Mean truncated absolute difference over 5 x 5 pixels, the views of an arm and the arms but the worst, so
 /// that points hidden on one side still match.
-CostVolume sweepPlanes(const PlaneSweep& sweep, ThreadPool& pool);
+SweepCosts sweepPlanes(const PlaneSweep& sweep, ThreadPool& pool);
 
 }  // namespace light_field_depth
 

@@ -16,11 +16,11 @@ namespace light_field_depth
 namespace
 {
 /// The nearest, the farthest and one half-way between them.
-Arm thinOut(Arm arm)
+AxisArm thinOut(AxisArm arm)
 {
   std::stable_sort(arm.begin(), arm.end(),
                    [](const View* a, const View* b) { return distanceOf(*a) < distanceOf(*b); });
-  return arm.size() <= 3 ? arm : Arm{arm.front(), arm[arm.size() / 2], arm.back()};
+  return arm.size() <= 3 ? arm : AxisArm{arm.front(), arm[arm.size() / 2], arm.back()};
 }
 
 }  // namespace
@@ -30,12 +30,12 @@ double distanceOf(const View& view)
   return std::hypot(view.steps.x, view.steps.y);
 }
 
-std::vector<Arm> armsOf(const LightField& light_field)
+std::vector<AxisArm> axisArmsOf(const LightField& light_field)
 {
   constexpr double ON_AXIS = 0.05;
   for (const bool on_axis_only : {true, false})
   {
-    std::array<Arm, 4> arms;
+    std::array<AxisArm, 4> arms;
     for (const View& view : light_field.views)
     {
       const double along = std::max(std::abs(view.steps.x), std::abs(view.steps.y));
@@ -48,8 +48,8 @@ std::vector<Arm> armsOf(const LightField& light_field)
       const bool positive = (horizontal ? view.steps.x : view.steps.y) > 0;
       arms[(horizontal ? 0U : 2U) + (positive ? 0U : 1U)].push_back(&view);
     }
-    std::vector<Arm> filled;
-    for (Arm& arm : arms)
+    std::vector<AxisArm> filled;
+    for (AxisArm& arm : arms)
     {
       if (!arm.empty())
       {
@@ -64,31 +64,31 @@ std::vector<Arm> armsOf(const LightField& light_field)
   return {};
 }
 
-double nearestDistance(const std::vector<Arm>& arms)
+double nearestDistance(const std::vector<AxisArm>& arms)
 {
   double nearest = std::numeric_limits<double>::max();
-  for (const Arm& arm : arms)
+  for (const AxisArm& arm : arms)
   {
     nearest = std::min(nearest, distanceOf(*arm.front()));
   }
   return nearest;
 }
 
-double farthestDistance(const std::vector<Arm>& arms)
+double farthestDistance(const std::vector<AxisArm>& arms)
 {
   double farthest = 0.0;
-  for (const Arm& arm : arms)
+  for (const AxisArm& arm : arms)
   {
     farthest = std::max(farthest, distanceOf(*arm.back()));
   }
   return farthest;
 }
 
-float largestDisparity(const std::vector<Arm>& arms, float max_displacement_px)
+float largestDisparity(const std::vector<AxisArm>& arms, float max_displacement_px)
 {
   constexpr double MAX_FRACTION_OF_SIDE = 0.4;
   double most = max_displacement_px / nearestDistance(arms);
-  for (const Arm& arm : arms)
+  for (const AxisArm& arm : arms)
   {
     const View& nearest = *arm.front();
     const bool horizontal = std::abs(nearest.steps.x) >= std::abs(nearest.steps.y);

@@ -9,8 +9,8 @@
 
 namespace light_field_depth
 {
-/// Views in one of the four directions from the reference, nearest first, at most three.
-using Arm = std::vector<const View*>;
+/// Views in one of the four directions of the axes from the reference, nearest first, at most three.
+using AxisArm = std::vector<const View*>;
 
 /// Of the camera from that of the reference, in grid steps.
 double distanceOf(const View& view);
@@ -18,15 +18,15 @@ double distanceOf(const View& view);
 /// Right, left, below, above, those that have views. Views on the row and the column of the reference come
 /// first; where there is none of these, all others are sorted into the direction that they are nearest to.
 /// @return pointers into the light field
-std::vector<Arm> armsOf(const LightField& light_field);
+std::vector<AxisArm> axisArmsOf(const LightField& light_field);
 
 /// Of the view that is nearest to (farthest from) the reference.
-double nearestDistance(const std::vector<Arm>& arms);
-double farthestDistance(const std::vector<Arm>& arms);
+double nearestDistance(const std::vector<AxisArm>& arms);
+double farthestDistance(const std::vector<AxisArm>& arms);
 
 /// The disparity at which points move by max_displacement_px from the reference to the view nearest to it,
 /// but in no direction by more than two fifths of the side of the nearest view there.
-float largestDisparity(const std::vector<Arm>& arms, float max_displacement_px);
+float largestDisparity(const std::vector<AxisArm>& arms, float max_displacement_px);
 
 /// How often a view is halved before its longer side would be less than side_px.
 int halvingsFor(const cv::Size& size, int side_px);

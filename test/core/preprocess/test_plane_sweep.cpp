@@ -114,7 +114,7 @@ TEST_P(PlaneSweeps, HaveCostsAsDefined)
     sweep.disparity_step = 3.3F;
     sweep.labels = 13;
     ThreadPool pool(2);
-    const CostVolume volume = sweepPlanes(sweep, pool);
+    const SweepCosts volume = sweepPlanes(sweep, pool);
     for (int label = 0; label < sweep.labels; ++label)
     {
       for (int pixel = 0; pixel < size.area(); ++pixel)
