@@ -7,7 +7,7 @@
 #include "core/multiview/refine/linearize_kernels.h"
 #include "core/multiview/refine/smoothing_kernels.h"
 #include "core/multiview/search/background_kernels.h"
-#include "core/multiview/search/median.h"
+#include "core/multiview/search/median_kernels.h"
 #include "kernel_data.h"
 #include "kernels.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/light_field/half_resolution.h"
+#include "core/light_field/half_resolution_kernels.h"
 #include "core/light_field/pixel_kernels.h"
 #include "core/multiview/search/cost_kernels.h"
 #include "core/multiview/search/path_kernels.h"

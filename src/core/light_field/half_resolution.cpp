@@ -1,5 +1,9 @@
 #include "core/light_field/half_resolution.h"
 
+#include <cstdint>
+
+#include "core/light_field/half_resolution_kernels.h"
+
 namespace light_field_depth::multiview
 {
 namespace

@@ -1,8 +1,6 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_LIGHT_FIELD_HALF_RESOLUTION_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_LIGHT_FIELD_HALF_RESOLUTION_H
 
-#include <cstdint>
-
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/light_field.h"
@@ -29,19 +27,6 @@ private:
 
   LightField half_;
 };
-
-/// One row of the reduced image from two rows of an image with `channels` (1 or 3, BGR) interleaved.
-/// @param width of the reduced row. The plain version computes the same values bit for bit.
-void halveRow(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
-              std::uint8_t* half);
-void halveRowPlain(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
-                   std::uint8_t* half);
-
-/// The same with as many channels as there are; each value is the rounded mean of four.
-void halveChannelsRow(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
-                      std::uint8_t* half);
-void halveChannelsRowPlain(const std::uint8_t* upper, const std::uint8_t* lower, int channels, int width,
-                           std::uint8_t* half);
 
 /// Half the size, with all channels, of an 8-bit image of one or three channels. An odd last row or column is
 /// left out.

@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE
 namespace hn = hwy::HWY_NAMESPACE;
 using Bytes = hn::CappedTag<std::uint8_t, 64>;
 
-void splitPixelsLoop(const PixelRow& row)
+void splitPixelsSimd(const PixelRow& row)
 {
   const Bytes bytes;
   const int lanes = static_cast<int>(hn::Lanes(bytes));
@@ -46,7 +46,7 @@ HWY_INLINE int changeOf(int a, int b)
   return a < b ? b - a : a - b;
 }
 
-void colourChangesLoop(const ColourChangeRow& row, std::uint16_t* HWY_RESTRICT from_left,
+void colourChangesSimd(const ColourChangeRow& row, std::uint16_t* HWY_RESTRICT from_left,
                        std::uint16_t* HWY_RESTRICT from_above)
 {
   const std::size_t second = row.channels == 1 ? 0 : row.channel_stride;
@@ -78,40 +78,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(splitPixelsLoop);
-HWY_EXPORT(colourChangesLoop);
+HWY_EXPORT(splitPixelsSimd);
+HWY_EXPORT(colourChangesSimd);
 
 void splitPixels(const PixelRow& row)
 {
-  HWY_DYNAMIC_DISPATCH(splitPixelsLoop)(row);
+  HWY_DYNAMIC_DISPATCH(splitPixelsSimd)(row);
 }
 
 void colourChanges(const ColourChangeRow& row, std::uint16_t* from_left, std::uint16_t* from_above)
 {
-  HWY_DYNAMIC_DISPATCH(colourChangesLoop)(row, from_left, from_above);
-}
-
-void colourChangesPlain(const ColourChangeRow& row, std::uint16_t* from_left, std::uint16_t* from_above)
-{
-  const auto change = [&](const std::uint8_t* a, const std::uint8_t* b)
-  { return static_cast<std::uint16_t>(colourDifference(a, b, row.channel_stride, row.channels)); };
-  for (int x = 0; x < row.width; ++x)
-  {
-    from_left[x] = change(row.pixels + x - 1, row.pixels + x);
-    from_above[x] = change(row.above + x, row.pixels + x);
-  }
-}
-
-void splitPixelsPlain(const PixelRow& row)
-{
-  constexpr std::size_t channels = 3;
-  for (std::size_t x = 0; x < static_cast<std::size_t>(row.width); ++x)
-  {
-    for (std::size_t c = 0; c < channels; ++c)
-    {
-      row.planes[c][x] = row.pixels[channels * x + c];
-    }
-  }
+  HWY_DYNAMIC_DISPATCH(colourChangesSimd)(row, from_left, from_above);
 }
 
 }  // namespace light_field_depth::multiview

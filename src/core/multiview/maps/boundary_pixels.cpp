@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/multiview/maps/window_extent.h"
+#include "core/multiview/maps/window_extent_kernels.h"
 
 namespace light_field_depth::multiview
 {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/multiview/maps/confidence_kernels.h"
-#include "core/multiview/maps/window_extent.h"
+#include "core/multiview/maps/window_extent_kernels.h"
 
 namespace light_field_depth::multiview
 {

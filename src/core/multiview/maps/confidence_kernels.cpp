@@ -43,7 +43,7 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void weighEvidenceLoop(const EvidenceRow& row, float* against)
+void weighEvidenceSimd(const EvidenceRow& row, float* against)
 {
   forPixels(
       0, row.width,
@@ -82,7 +82,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(weighEvidenceLoop);
+HWY_EXPORT(weighEvidenceSimd);
 
 namespace
 {
@@ -95,7 +95,7 @@ float ramp(float value, float from, float width)
 
 void weighEvidence(const EvidenceRow& row, float* against)
 {
-  HWY_DYNAMIC_DISPATCH(weighEvidenceLoop)(row, against);
+  HWY_DYNAMIC_DISPATCH(weighEvidenceSimd)(row, against);
 }
 
 void weighEvidencePlain(const EvidenceRow& row, float* against)

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/multiview/refine/linearize_kernels.h"
-#include "core/multiview/refine/normal_equations.h"
+#include "core/multiview/refine/normal_equation_kernels.h"
 #include "core/multiview/refine/view_rays.h"
 
 namespace light_field_depth::multiview

@@ -18,7 +18,7 @@ namespace light_field_depth::multiview
 namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
-void linkRowLoop(const LinkRow& row)
+void linkRowSimd(const LinkRow& row)
 {
   const auto robust = [&](auto f, auto guide, auto change)
   {
@@ -257,7 +257,7 @@ void substituteTile(const Elimination* eliminations, int columns, float* next, C
   }
 }
 
-void solveRowsLoop(const SystemRow* rows, int count, int width, float* scratch)
+void solveRowsSimd(const SystemRow* rows, int count, int width, float* scratch)
 {
   auto* const eliminations = reinterpret_cast<Elimination*>(scratch);
   SystemTile tile = {};
@@ -296,7 +296,7 @@ HWY_INLINE void eliminateAt(D f, const ColumnStep& step, int x, hn::Vec<D> left_
   hn::StoreU(hn::Mul(equation.down, inverse), f, step.factor + i);
 }
 
-void eliminateColumnsLoop(const ColumnStep& step)
+void eliminateColumnsSimd(const ColumnStep& step)
 {
   const OneFloat one;
   const float* const row = step.disparity;
@@ -317,7 +317,7 @@ void eliminateColumnsLoop(const ColumnStep& step)
             { eliminateAt(f, step, x, hn::LoadU(f, row + x - 1), hn::LoadU(f, row + x + 1)); });
 }
 
-void substituteColumnsLoop(const float* value, const float* factor, const float* below, int count,
+void substituteColumnsSimd(const float* value, const float* factor, const float* below, int count,
                            float* solution)
 {
   forPixels(0, count,
@@ -335,30 +335,30 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(linkRowLoop);
-HWY_EXPORT(solveRowsLoop);
-HWY_EXPORT(eliminateColumnsLoop);
-HWY_EXPORT(substituteColumnsLoop);
+HWY_EXPORT(linkRowSimd);
+HWY_EXPORT(solveRowsSimd);
+HWY_EXPORT(eliminateColumnsSimd);
+HWY_EXPORT(substituteColumnsSimd);
 
 void linkRow(const LinkRow& row)
 {
-  HWY_DYNAMIC_DISPATCH(linkRowLoop)(row);
+  HWY_DYNAMIC_DISPATCH(linkRowSimd)(row);
 }
 
 void solveRows(const SystemRow* rows, int count, int width, float* scratch)
 {
-  HWY_DYNAMIC_DISPATCH(solveRowsLoop)(rows, count, width, scratch);
+  HWY_DYNAMIC_DISPATCH(solveRowsSimd)(rows, count, width, scratch);
 }
 
 void eliminateColumns(const ColumnStep& step)
 {
-  HWY_DYNAMIC_DISPATCH(eliminateColumnsLoop)(step);
+  HWY_DYNAMIC_DISPATCH(eliminateColumnsSimd)(step);
 }
 
 void substituteColumns(const float* value, const float* factor, const float* below, int count,
                        float* solution)
 {
-  HWY_DYNAMIC_DISPATCH(substituteColumnsLoop)(value, factor, below, count, solution);
+  HWY_DYNAMIC_DISPATCH(substituteColumnsSimd)(value, factor, below, count, solution);
 }
 
 }  // namespace light_field_depth::multiview

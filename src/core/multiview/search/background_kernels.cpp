@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Words = hn::CappedTag<std::int16_t, TILE_PX>;
 using Bytes = hn::CappedTag<std::uint8_t, TILE_PX>;
 
-void findLabelCostsLoop(const LabelCosts& costs)
+void findLabelCostsSimd(const LabelCosts& costs)
 {
   const LabelBand& band = costs.line.band;
   HWY_ALIGN std::int32_t index[TILE_PX];
@@ -140,7 +140,7 @@ HWY_INLINE int takeLabel(const SupportLine& support, std::int16_t label, std::in
 }
 
 /// Few labels share a row of a tile: all of its pixels are looked at once for each.
-void countSupportedLoop(const SupportLine& support, std::int16_t* labels, int* counts)
+void countSupportedSimd(const SupportLine& support, std::int16_t* labels, int* counts)
 {
   for (std::size_t x = 0; x < TILE_PX; ++x)
   {
@@ -153,7 +153,7 @@ void countSupportedLoop(const SupportLine& support, std::int16_t* labels, int* c
   }
 }
 
-void addChargesLoop(const std::uint8_t* charge, int labels, std::uint8_t* costs)
+void addChargesSimd(const std::uint8_t* charge, int labels, std::uint8_t* costs)
 {
   const Bytes bytes;
   for (int label = 0; label < labels; ++label)
@@ -174,23 +174,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(findLabelCostsLoop);
-HWY_EXPORT(countSupportedLoop);
-HWY_EXPORT(addChargesLoop);
+HWY_EXPORT(findLabelCostsSimd);
+HWY_EXPORT(countSupportedSimd);
+HWY_EXPORT(addChargesSimd);
 
 void findLabelCosts(const LabelCosts& costs)
 {
-  HWY_DYNAMIC_DISPATCH(findLabelCostsLoop)(costs);
+  HWY_DYNAMIC_DISPATCH(findLabelCostsSimd)(costs);
 }
 
 void countSupported(const SupportLine& line, std::int16_t* labels, int* counts)
 {
-  HWY_DYNAMIC_DISPATCH(countSupportedLoop)(line, labels, counts);
+  HWY_DYNAMIC_DISPATCH(countSupportedSimd)(line, labels, counts);
 }
 
 void addCharges(const std::uint8_t* charge, int labels, std::uint8_t* costs)
 {
-  HWY_DYNAMIC_DISPATCH(addChargesLoop)(charge, labels, costs);
+  HWY_DYNAMIC_DISPATCH(addChargesSimd)(charge, labels, costs);
 }
 
 }  // namespace light_field_depth::multiview

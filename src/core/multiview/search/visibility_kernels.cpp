@@ -4,29 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <cmath>
-
 #include "core/multiview/search/visibility_kernels.h"
-
-#ifndef LIGHT_FIELD_DEPTH_CORE_WARP_TARGET
-#define LIGHT_FIELD_DEPTH_CORE_WARP_TARGET
-namespace light_field_depth::multiview
-{
-namespace
-{
-std::int32_t warpTarget(const WarpRow& row, int x)
-{
-  const float disparity = row.disparity[x];
-  const auto target_x =
-      static_cast<int>(std::floor(static_cast<float>(x) + row.base_x - disparity * row.step_x));
-  const auto target_y = static_cast<int>(std::floor(row.base_y - disparity * row.step_y));
-  const bool inside = target_x >= 0 && target_x < row.width && target_y >= 0 && target_y < row.height;
-  return inside ? target_y * row.pitch + target_x + row.first : 0;
-}
-
-}  // namespace
-}  // namespace light_field_depth::multiview
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace light_field_depth::multiview
@@ -94,14 +72,6 @@ HWY_EXPORT(warpTargetsSimd);
 void warpTargets(const WarpRow& row, std::int32_t* targets)
 {
   HWY_DYNAMIC_DISPATCH(warpTargetsSimd)(row, targets);
-}
-
-void warpTargetsPlain(const WarpRow& row, std::int32_t* targets)
-{
-  for (int x = 0; x < row.width; ++x)
-  {
-    targets[x] = warpTarget(row, x);
-  }
 }
 
 }  // namespace light_field_depth::multiview

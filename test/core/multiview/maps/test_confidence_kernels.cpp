@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/multiview/maps/confidence_kernels.h"
-#include "core/multiview/maps/window_extent.h"
+#include "core/multiview/maps/window_extent_kernels.h"
 #include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview

@@ -1,11 +1,11 @@
 // Compiled once for each instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/multiview/refine/normal_equations.cpp"
+#define HWY_TARGET_INCLUDE "core/multiview/refine/normal_equation_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "core/multiview/refine/linearize_kernels.h"
-#include "core/multiview/refine/normal_equations.h"
+#include "core/multiview/refine/normal_equation_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace light_field_depth::multiview
@@ -27,7 +27,7 @@ HWY_INLINE int clampedColumn(int x, int width)
   return x < 0 ? 0 : x >= width ? width - 1 : x;
 }
 
-void sumRowsLoop(const float* const* HWY_RESTRICT rows, int row_count, std::size_t count,
+void sumRowsSimd(const float* const* HWY_RESTRICT rows, int row_count, std::size_t count,
                  float* HWY_RESTRICT sums)
 {
   const Floats f;
@@ -66,7 +66,7 @@ HWY_INLINE float clampedSum(const float* in, int width, int radius, int x)
   return sum;
 }
 
-void boxRowLoop(const float* HWY_RESTRICT in, int width, int radius, float* HWY_RESTRICT out)
+void boxRowSimd(const float* HWY_RESTRICT in, int width, int radius, float* HWY_RESTRICT out)
 {
   const int edge = radius < width - radius ? radius : width;
   for (int x = 0; x < edge; ++x)
@@ -92,7 +92,7 @@ void boxRowLoop(const float* HWY_RESTRICT in, int width, int radius, float* HWY_
   }
 }
 
-void scaleAndLowerLoop(float factor, float offset, int width, float* HWY_RESTRICT values,
+void scaleAndLowerSimd(float factor, float offset, int width, float* HWY_RESTRICT values,
                        float* HWY_RESTRICT lowest)
 {
   for (int x = 0; x < width; ++x)
@@ -103,7 +103,7 @@ void scaleAndLowerLoop(float factor, float offset, int width, float* HWY_RESTRIC
   }
 }
 
-void shareOfArmLoop(const float* HWY_RESTRICT lowest, int width, float* HWY_RESTRICT values)
+void shareOfArmSimd(const float* HWY_RESTRICT lowest, int width, float* HWY_RESTRICT values)
 {
   for (int x = 0; x < width; ++x)
   {
@@ -114,9 +114,9 @@ void shareOfArmLoop(const float* HWY_RESTRICT lowest, int width, float* HWY_REST
 }
 
 /// By one axis: the weights of the differences of the neighbours one and two pixels away.
-void derivativeLoop(const float* HWY_RESTRICT before2, const float* HWY_RESTRICT before,
-                    const float* HWY_RESTRICT after, const float* HWY_RESTRICT after2, int width,
-                    float* HWY_RESTRICT derivative)
+void differentiateAlong(const float* HWY_RESTRICT before2, const float* HWY_RESTRICT before,
+                        const float* HWY_RESTRICT after, const float* HWY_RESTRICT after2, int width,
+                        float* HWY_RESTRICT derivative)
 {
   constexpr float near_tap = 8.0F / 12.0F;
   constexpr float far_tap = 1.0F / 12.0F;
@@ -126,19 +126,19 @@ void derivativeLoop(const float* HWY_RESTRICT before2, const float* HWY_RESTRICT
   }
 }
 
-void differentiateLoop(const DerivativeRow& row)
+void differentiateSimd(const DerivativeRow& row)
 {
   const float* const here = row.rows[2];
-  derivativeLoop(here - 2, here - 1, here + 1, here + 2, row.width, row.along_x);
-  derivativeLoop(row.rows[0], row.rows[1], row.rows[3], row.rows[4], row.width, row.along_y);
+  differentiateAlong(here - 2, here - 1, here + 1, here + 2, row.width, row.along_x);
+  differentiateAlong(row.rows[0], row.rows[1], row.rows[3], row.rows[4], row.width, row.along_y);
 }
 
 /// One channel of a ray; everything in registers or behind pointers of its own, or it is not vectorised.
-void addChannelLoop(const float* HWY_RESTRICT share, const float* HWY_RESTRICT moment_kk,
-                    const float* HWY_RESTRICT moment_kr, const float* HWY_RESTRICT along_x,
-                    const float* HWY_RESTRICT along_y, float direction_x, float direction_y, int width,
-                    float* HWY_RESTRICT gg, float* HWY_RESTRICT gr, float* HWY_RESTRICT sum_kg,
-                    float* HWY_RESTRICT sum_kr)
+void addRayChannel(const float* HWY_RESTRICT share, const float* HWY_RESTRICT moment_kk,
+                   const float* HWY_RESTRICT moment_kr, const float* HWY_RESTRICT along_x,
+                   const float* HWY_RESTRICT along_y, float direction_x, float direction_y, int width,
+                   float* HWY_RESTRICT gg, float* HWY_RESTRICT gr, float* HWY_RESTRICT sum_kg,
+                   float* HWY_RESTRICT sum_kr)
 {
   for (int x = 0; x < width; ++x)
   {
@@ -152,8 +152,7 @@ void addChannelLoop(const float* HWY_RESTRICT share, const float* HWY_RESTRICT m
   }
 }
 
-void addProductLoop(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, int width,
-                    float* HWY_RESTRICT sum)
+void addProduct(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, int width, float* HWY_RESTRICT sum)
 {
   for (int x = 0; x < width; ++x)
   {
@@ -161,22 +160,22 @@ void addProductLoop(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, in
   }
 }
 
-void addRayLoop(const RayRow& ray, float* pair)
+void addRaySimd(const RayRow& ray, float* pair)
 {
   const std::size_t stride = ray.stride;
   const float* const moment_kk = ray.moments + RAY_KK * stride;
-  addProductLoop(ray.share, moment_kk, ray.width, pair + MOMENT_KK * stride);
+  addProduct(ray.share, moment_kk, ray.width, pair + MOMENT_KK * stride);
   for (int c = 0; c < ray.channels; ++c)
   {
     const std::size_t channel = static_cast<std::size_t>(c) * stride;
-    addChannelLoop(ray.share, moment_kk, ray.moments + RAY_KR * stride + channel, ray.along_x + channel,
-                   ray.along_y + channel, ray.direction_x, ray.direction_y, ray.width,
-                   pair + MOMENT_GG * stride, pair + MOMENT_GR * stride, pair + MOMENT_KG * stride + channel,
-                   pair + momentKr(ray.channels) * stride + channel);
+    addRayChannel(ray.share, moment_kk, ray.moments + RAY_KR * stride + channel, ray.along_x + channel,
+                  ray.along_y + channel, ray.direction_x, ray.direction_y, ray.width,
+                  pair + MOMENT_GG * stride, pair + MOMENT_GR * stride, pair + MOMENT_KG * stride + channel,
+                  pair + momentKr(ray.channels) * stride + channel);
   }
 }
 
-void addPairLoop(const PairRow& pair, const SolutionRow& solution)
+void addPairSimd(const PairRow& pair, const SolutionRow& solution)
 {
   const Floats f;
   const auto zero = hn::Zero(f);
@@ -205,7 +204,7 @@ void addPairLoop(const PairRow& pair, const SolutionRow& solution)
   }
 }
 
-void solveRowLoop(const FinalRow& row, const SolutionRow& solution)
+void solveRowSimd(const FinalRow& row, const SolutionRow& solution)
 {
   const Floats f;
   const auto tiny = hn::Set(f, 1e-6F);
@@ -233,53 +232,53 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(sumRowsLoop);
-HWY_EXPORT(boxRowLoop);
-HWY_EXPORT(scaleAndLowerLoop);
-HWY_EXPORT(shareOfArmLoop);
-HWY_EXPORT(differentiateLoop);
-HWY_EXPORT(addRayLoop);
-HWY_EXPORT(addPairLoop);
-HWY_EXPORT(solveRowLoop);
+HWY_EXPORT(sumRowsSimd);
+HWY_EXPORT(boxRowSimd);
+HWY_EXPORT(scaleAndLowerSimd);
+HWY_EXPORT(shareOfArmSimd);
+HWY_EXPORT(differentiateSimd);
+HWY_EXPORT(addRaySimd);
+HWY_EXPORT(addPairSimd);
+HWY_EXPORT(solveRowSimd);
 
 void sumRows(const float* const* rows, int row_count, std::size_t count, float* sums)
 {
-  HWY_DYNAMIC_DISPATCH(sumRowsLoop)(rows, row_count, count, sums);
+  HWY_DYNAMIC_DISPATCH(sumRowsSimd)(rows, row_count, count, sums);
 }
 
 void boxRow(const float* in, int width, int radius, float* out)
 {
-  HWY_DYNAMIC_DISPATCH(boxRowLoop)(in, width, radius, out);
+  HWY_DYNAMIC_DISPATCH(boxRowSimd)(in, width, radius, out);
 }
 
 void scaleAndLower(float factor, float offset, int width, float* values, float* lowest)
 {
-  HWY_DYNAMIC_DISPATCH(scaleAndLowerLoop)(factor, offset, width, values, lowest);
+  HWY_DYNAMIC_DISPATCH(scaleAndLowerSimd)(factor, offset, width, values, lowest);
 }
 
 void shareOfArm(const float* lowest, int width, float* values)
 {
-  HWY_DYNAMIC_DISPATCH(shareOfArmLoop)(lowest, width, values);
+  HWY_DYNAMIC_DISPATCH(shareOfArmSimd)(lowest, width, values);
 }
 
 void differentiate(const DerivativeRow& row)
 {
-  HWY_DYNAMIC_DISPATCH(differentiateLoop)(row);
+  HWY_DYNAMIC_DISPATCH(differentiateSimd)(row);
 }
 
 void addRay(const RayRow& ray, float* pair)
 {
-  HWY_DYNAMIC_DISPATCH(addRayLoop)(ray, pair);
+  HWY_DYNAMIC_DISPATCH(addRaySimd)(ray, pair);
 }
 
 void addPair(const PairRow& pair, const SolutionRow& solution)
 {
-  HWY_DYNAMIC_DISPATCH(addPairLoop)(pair, solution);
+  HWY_DYNAMIC_DISPATCH(addPairSimd)(pair, solution);
 }
 
 void solveRow(const FinalRow& row, const SolutionRow& solution)
 {
-  HWY_DYNAMIC_DISPATCH(solveRowLoop)(row, solution);
+  HWY_DYNAMIC_DISPATCH(solveRowSimd)(row, solution);
 }
 
 }  // namespace light_field_depth::multiview

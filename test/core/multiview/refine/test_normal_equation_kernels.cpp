@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/multiview/refine/linearize_kernels.h"
-#include "core/multiview/refine/normal_equations.h"
+#include "core/multiview/refine/normal_equation_kernels.h"
 #include "support/instruction_sets.h"
 
 namespace light_field_depth::multiview

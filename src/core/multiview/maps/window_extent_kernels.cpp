@@ -1,13 +1,13 @@
 // Compiled once for each instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/multiview/maps/window_extent.cpp"
+#define HWY_TARGET_INCLUDE "core/multiview/maps/window_extent_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 
 #include "core/base/pixel_loops-inl.h"
-#include "core/multiview/maps/window_extent.h"
+#include "core/multiview/maps/window_extent_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace light_field_depth::multiview
@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void findExtentsLoop(const ExtentRow& row)
+void findExtentsSimd(const ExtentRow& row)
 {
   const int size = 2 * row.radius + 1;
   float* const low = row.columns + ExtentRow::MAX_RADIUS;
@@ -65,7 +65,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(findExtentsLoop);
+HWY_EXPORT(findExtentsSimd);
 
 ExtentRow extentRowOf(const cv::Mat& map, int y, int radius)
 {
@@ -81,24 +81,7 @@ ExtentRow extentRowOf(const cv::Mat& map, int y, int radius)
 
 void findExtents(const ExtentRow& row)
 {
-  HWY_DYNAMIC_DISPATCH(findExtentsLoop)(row);
-}
-
-void findExtentsPlain(const ExtentRow& row)
-{
-  for (int x = 0; x < row.width; ++x)
-  {
-    row.low[x] = row.high[x] = row.rows[row.radius][x];
-    for (int i = 0; i <= 2 * row.radius; ++i)
-    {
-      for (int dx = -row.radius; dx <= row.radius; ++dx)
-      {
-        const float value = row.rows[i][std::clamp(x + dx, 0, row.width - 1)];
-        row.low[x] = std::min(row.low[x], value);
-        row.high[x] = std::max(row.high[x], value);
-      }
-    }
-  }
+  HWY_DYNAMIC_DISPATCH(findExtentsSimd)(row);
 }
 
 }  // namespace light_field_depth::multiview

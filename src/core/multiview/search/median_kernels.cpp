@@ -1,6 +1,6 @@
 // Compiled once for each instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/multiview/search/median_kernel.cpp"
+#define HWY_TARGET_INCLUDE "core/multiview/search/median_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/pixel_loops-inl.h"
-#include "core/multiview/search/median.h"
+#include "core/multiview/search/median_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace light_field_depth::multiview
@@ -72,7 +72,7 @@ HWY_INLINE void loadWindow(D f, const float* columns, std::size_t stride, hn::Ve
   ((window[I] = hn::LoadU(f, columns + I / SIDE * stride + I % SIDE)), ...);
 }
 
-void medianRowLoop(const MedianRow& row)
+void medianRowSimd(const MedianRow& row)
 {
   const int width = row.width;
   const std::size_t stride = static_cast<std::size_t>(width) + 2 * RADIUS;
@@ -117,11 +117,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(medianRowLoop);
+HWY_EXPORT(medianRowSimd);
 
 void medianRow(const MedianRow& row)
 {
-  HWY_DYNAMIC_DISPATCH(medianRowLoop)(row);
+  HWY_DYNAMIC_DISPATCH(medianRowSimd)(row);
 }
 
 }  // namespace light_field_depth::multiview
