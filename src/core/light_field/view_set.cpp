@@ -14,6 +14,8 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int DIRECTIONS = 8;
+/// Of each direction; the rest is left out, evenly.
+constexpr int MAX_VIEWS_PER_ARM = 8;
 /// Room for the taps of an interpolation and for vectors that run over the end of a row.
 constexpr int SAMPLING_MARGIN_PX = 8;
 constexpr std::size_t ROW_ALIGNMENT = 64;
@@ -125,7 +127,7 @@ void PlanarImage::create(int width, int height, int channels, int pad)
 void prepareViews(const LightField& light_field, const ViewSetSettings& settings, ThreadPool& pool,
                   ViewSet& view_set)
 {
-  const auto by_direction = viewsByDirection(light_field, settings.max_views_per_arm);
+  const auto by_direction = viewsByDirection(light_field, MAX_VIEWS_PER_ARM);
   std::vector<std::size_t> order;
   view_set.arms.clear();
   for (int direction = 0; direction < DIRECTIONS; ++direction)

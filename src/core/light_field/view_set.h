@@ -82,7 +82,6 @@ struct ViewSetSettings
 {
   bool grey = false;
   double blur_sigma_px = 0.0;  ///< of a Gaussian over every view; 0 for none
-  int max_views_per_arm = 8;   ///< the rest is left out, evenly
   DisparityRange range;        ///< gives the padding
 };
 

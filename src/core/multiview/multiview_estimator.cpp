@@ -334,8 +334,7 @@ void MultiviewEstimator::upsample(const cv::Mat& image, RunContext& context, Dis
   const StageTimer timer(context, "upsample");
   cv::Mat disparity;
   cv::Mat confidence;
-  multiview::upsample(estimate.disparity, estimate.confidence, image, {}, context.pool, disparity,
-                      confidence);
+  multiview::upsample(estimate.disparity, estimate.confidence, image, context.pool, disparity, confidence);
   estimate.disparity = disparity;
   estimate.confidence = confidence;
 }

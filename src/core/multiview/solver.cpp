@@ -168,13 +168,14 @@ bool Solver::computeFirstCosts(const SolverSettings& settings, const CostSetting
     cost_builder_.buildFromArms(views_, labels_, bands_, cost, context.pool, volume_);
     return true;
   }
-  cost_builder_.buildAndWatch(views_, labels_, bands_, cost, settings.watch, context.pool, volume_, watch_);
+  changes_.begin(bands_);
+  cost_builder_.buildObserved(views_, labels_, bands_, cost, changes_, context.pool, volume_);
   if (where == SearchIn::AllLabels)
   {
-    watch_.acceptFull();
+    changes_.acceptFull();
     return true;
   }
-  if (!watch_.acceptNear(settings.watch, bands_, changed_tiles_))
+  if (!changes_.acceptNear(bands_, changed_tiles_))
   {
     return false;
   }
@@ -190,17 +191,17 @@ bool Solver::acceptFirstMap(const SolverSettings& settings, SearchIn where, RunC
   const StageTimer timer(context, "cost");
   if (where == SearchIn::AllLabels)
   {
-    watch_.acceptFullMap(disparity_, labels_);
+    changes_.acceptFullMap(disparity_, labels_);
     return true;
   }
-  return watch_.acceptNearMap(settings.watch, disparity_, labels_);
+  return changes_.acceptNearMap(disparity_, labels_);
 }
 
 void Solver::fuseBackground(const SolverSettings& settings, RunContext& context)
 {
   {
     const StageTimer timer(context, "background");
-    background_.prepare(labels_, disparity_, settings.background, context.pool, volume_);
+    background_.prepare(labels_, disparity_, context.pool, volume_);
     cv::swap(disparity_, searched_);
   }
   aggregate(settings, context);
@@ -221,7 +222,7 @@ void Solver::aggregate(const SolverSettings& settings, RunContext& context)
   if (settings.keep_thin_structures)
   {
     label_.convertTo(scratch_, CV_32F, labels_.step_px, labels_.first_px);
-    keepThinStructures(guide(), scratch_, settings.thin_structures, context.pool, disparity_);
+    keepThinStructures(guide(), scratch_, context.pool, disparity_);
   }
 }
 

@@ -41,16 +41,13 @@ struct SolverSettings
   float last_large_change_share = 0.75F;
   int visibility_passes = 1;
   bool fuse_background = true;
-  BackgroundSettings background;
   bool keep_thin_structures = false;
-  ThinStructureSettings thin_structures;
   bool decide_boundary_pixels = true;
   BoundaryPixelSettings boundary_pixels;
   int refinements = 2;
   LinearizationSettings linearization;
   SmoothingSettings smoothing;
   bool detect_changes = false;  ///< so that the next frame may follow
-  ChangeDetectionSettings watch;
 };
 
 /// Runs the stages of the multi-view method in order. Keeps its buffers; one call at a time.
@@ -106,7 +103,7 @@ private:
   LabelBands bands_;
   CostVolumeBuilder cost_builder_;
   CostVolume volume_;
-  ChangeDetector watch_;
+  ChangeDetector changes_;
   std::vector<std::uint8_t> changed_tiles_;
   PathAggregator aggregator_;
   MedianFilter median_;

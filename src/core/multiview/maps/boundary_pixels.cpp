@@ -14,6 +14,9 @@ namespace
 {
 constexpr int RADIUS = 2;
 constexpr int ROWS_PER_CHUNK = 32;
+constexpr float MIN_JUMP_PX = 0.2F;            // of the disparity in 3 x 3 pixels, to be an edge
+constexpr float MAX_RELATIVE_SPREAD = 0.3F;    // of the nearer side's colours, in units of the contrast
+constexpr float MIN_FOREGROUND_SHARE = 0.32F;  // pixels with less of the nearer surface go to the farther one
 /// Weight of pixels that stand at the edge themselves: their colours are mixed.
 constexpr float EDGE_WEIGHT = 0.02F;
 
@@ -81,7 +84,7 @@ public:
   {
     const float here = disparity_.at<float>(y, x);
     const float middle = 0.5F * (low + high);
-    if (high - low < settings_.min_jump_px || here <= middle)
+    if (high - low < MIN_JUMP_PX || here <= middle)
     {
       return here;
     }
@@ -159,8 +162,7 @@ private:
     {
       residual += std::abs(colour[c] - background[c] - share * (foreground[c] - background[c]));
     }
-    return near.spread() + residual <= settings_.max_relative_spread * contrast &&
-           share < settings_.min_foreground_share;
+    return near.spread() + residual <= MAX_RELATIVE_SPREAD * contrast && share < MIN_FOREGROUND_SHARE;
   }
 
   const PlanarImage& image_;

@@ -13,10 +13,7 @@ namespace light_field_depth::multiview
 /// tells how large the part is.
 struct BoundaryPixelSettings
 {
-  float min_jump_px = 0.2F;            ///< of the disparity in 3 x 3 pixels, to be an edge
-  float min_contrast = 20.0F;          ///< between the two sides, summed over three channels of 0..255
-  float max_relative_spread = 0.3F;    ///< of the nearer side's colours, in units of the contrast
-  float min_foreground_share = 0.32F;  ///< pixels with less of the nearer surface go to the farther one
+  float min_contrast = 20.0F;  ///< between the two sides, summed over three channels of 0..255
 };
 
 /// Gives edge pixels that are mostly background the disparity of the background.

@@ -14,20 +14,23 @@ namespace
 constexpr int ROWS_PER_CHUNK = 32;  // of the full resolution; even
 constexpr int EDGE_RADIUS = 1;      // reduced pixels that vote at an edge
 constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
+constexpr float EDGE_JUMP_PX = 0.2F;  // of the disparity among 3 x 3 values, to be an edge
+constexpr float COLOUR_SCALE =
+    12.0F;  // difference of colour, mean of the channels, that lowers a weight by e
+constexpr float DISTANCE_SCALE = 0.9F;  // distance in reduced pixels at which a weight has fallen to a half
 
 /// The full resolution from the reduced one, row by row.
 class Upsampler
 {
 public:
   Upsampler(const cv::Mat& half_disparity, const cv::Mat& half_confidence, const cv::Mat& image,
-            const UpsamplingSettings& settings, cv::Mat& disparity, cv::Mat& confidence)
+            cv::Mat& disparity, cv::Mat& confidence)
       : half_disparity_(half_disparity), half_confidence_(half_confidence), image_(image),
-        settings_(settings), disparity_(disparity), confidence_(confidence), channels_(image.channels())
+        disparity_(disparity), confidence_(confidence), channels_(image.channels())
   {
     for (std::size_t i = 0; i < colour_weights_.size(); ++i)
     {
-      colour_weights_[i] =
-          std::exp(-static_cast<float>(i) / (static_cast<float>(channels_) * settings.colour_scale));
+      colour_weights_[i] = std::exp(-static_cast<float>(i) / (static_cast<float>(channels_) * COLOUR_SCALE));
     }
   }
 
@@ -93,7 +96,7 @@ private:
       column(std::min(x + 1, width - 1), static_cast<std::size_t>((x + 2) % 3));
       const float lowest = std::min({low_of[0], low_of[1], low_of[2]});
       const float highest = std::max({high_of[0], high_of[1], high_of[2]});
-      if (highest - lowest > settings_.edge_jump_px)
+      if (highest - lowest > EDGE_JUMP_PX)
       {
         const float middle = 0.5F * (lowest + highest);
         const int end = x + 1 == width ? disparity_.cols : 2 * x + 2;
@@ -114,7 +117,7 @@ private:
     const int centre_y = halfRow(y);
     std::array<float, 2> weight{};
     std::array<float, 2> sum{};
-    const float falloff = 1.0F / settings_.distance_scale;
+    const float falloff = 1.0F / DISTANCE_SCALE;
     const std::uint8_t* const pixel =
         image_.ptr<std::uint8_t>(y) + static_cast<std::ptrdiff_t>(x) * channels_;
     for (int qy = std::max(centre_y - EDGE_RADIUS, 0);
@@ -155,7 +158,6 @@ private:
   const cv::Mat& half_disparity_;
   const cv::Mat& half_confidence_;
   const cv::Mat& image_;
-  const UpsamplingSettings& settings_;
   cv::Mat& disparity_;
   cv::Mat& confidence_;
   int channels_;
@@ -165,11 +167,11 @@ private:
 }  // namespace
 
 void upsample(const cv::Mat& half_disparity, const cv::Mat& half_confidence, const cv::Mat& image,
-              const UpsamplingSettings& settings, ThreadPool& pool, cv::Mat& disparity, cv::Mat& confidence)
+              ThreadPool& pool, cv::Mat& disparity, cv::Mat& confidence)
 {
   disparity.create(image.size(), CV_32FC1);
   confidence.create(image.size(), CV_32FC1);
-  const Upsampler upsampler(half_disparity, half_confidence, image, settings, disparity, confidence);
+  const Upsampler upsampler(half_disparity, half_confidence, image, disparity, confidence);
   pool.parallelFor(0, image.rows, ROWS_PER_CHUNK, [&](int first, int last) { upsampler.run(first, last); });
 }
 

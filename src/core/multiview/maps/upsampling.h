@@ -7,13 +7,6 @@
 
 namespace light_field_depth::multiview
 {
-struct UpsamplingSettings
-{
-  float edge_jump_px = 0.2F;    ///< of the disparity among 3 x 3 values, to be an edge
-  float colour_scale = 12.0F;   ///< difference of colour, mean of the channels, that lowers a weight by e
-  float distance_scale = 0.9F;  ///< distance in reduced pixels that lowers a weight by e
-};
-
 /// Brings a disparity map of half the resolution to the full one. Smooth surfaces are interpolated linearly;
 /// at depth edges each pixel takes the side whose pixels have its colour, so that no value lies between two
 /// surfaces.
@@ -21,7 +14,7 @@ struct UpsamplingSettings
 /// @param image CV_8UC1 or CV_8UC3 of the full resolution, which guides
 /// @param disparity, confidence CV_32FC1 results in the size of the image; the values keep their unit
 void upsample(const cv::Mat& half_disparity, const cv::Mat& half_confidence, const cv::Mat& image,
-              const UpsamplingSettings& settings, ThreadPool& pool, cv::Mat& disparity, cv::Mat& confidence);
+              ThreadPool& pool, cv::Mat& disparity, cv::Mat& confidence);
 
 }  // namespace light_field_depth::multiview
 

@@ -17,6 +17,15 @@ constexpr int TILES_PER_BLOCK = BLOCK_PX / TILE_PX;
 constexpr int ROWS_PER_CHUNK = 16;
 /// With fewer believed pixels about a block nothing is charged there.
 constexpr int MIN_BELIEVED = 30;
+/// How much a label must be better than those at that distance to be believed.
+constexpr float MIN_SUPPORT = 12.0F;
+constexpr float SUPPORT_DISTANCE_PX = 0.25F;
+/// Of the believed labels about a block: nothing is taken to be farther.
+constexpr float FLOOR_QUANTILE = 0.05F;
+/// Charge in later searches for leaving the background, what is free of it, and its limit.
+constexpr float HOLD_PER_PX = 16.0F;
+constexpr float HOLD_SLACK_PX = 0.375F;
+constexpr int MAX_HOLD = 20;
 
 SupportLine::Lines linesAbout(const CostVolume& volume, int tile_column, int y)
 {
@@ -81,19 +90,17 @@ std::int16_t lowestBelieved(const std::vector<int>& counts, float quantile)
 
 }  // namespace
 
-void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparity,
-                               const BackgroundSettings& settings, ThreadPool& pool, CostVolume& volume)
+void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparity, ThreadPool& pool,
+                               CostVolume& volume)
 {
   labels_ = labels;
-  settings_ = settings;
   moved_.create(disparity.size(), CV_16SC1);
   label_.create(disparity.size(), CV_32FC1);
   data_cost_.create(disparity.size(), CV_32FC1);
   floor_.create((volume.height + BLOCK_PX - 1) / BLOCK_PX, (volume.width + BLOCK_PX - 1) / BLOCK_PX,
                 CV_16SC1);
   countBelieved(disparity, volume, pool);
-  const auto charge =
-      ramp(volume.bands.labels(), 0.0F, settings.bias_per_px * labels.step_px, settings.max_bias);
+  const auto charge = ramp(volume.bands.labels(), 0.0F, CHARGE_PER_PX * labels.step_px, MAX_CHARGE);
   pool.parallelFor(0, floor_.rows, 1,
                    [&](int first, int last)
                    {
@@ -114,7 +121,7 @@ void BackgroundFusion::countBelieved(const cv::Mat& disparity, const CostVolume&
   const auto label_count = static_cast<std::size_t>(volume.bands.labels());
   const auto block_columns = static_cast<std::size_t>(floor_.cols);
   believed_.resize(static_cast<std::size_t>(volume.bands.rows()) * block_columns * label_count);
-  const int threshold = thresholdOfSum(settings_.min_support);
+  const int threshold = thresholdOfSum(MIN_SUPPORT);
   const auto count_row = [&](int tile_row)
   {
     const cv::Range rows(tile_row * TILE_PX, std::min((tile_row + 1) * TILE_PX, volume.height));
@@ -165,7 +172,7 @@ void BackgroundFusion::countBelieved(int tile_column, int y, int threshold, cons
   support.here = linesAbout(volume, tile_column, y);
   support.left = linesAbout(volume, tile_column - 1, y);
   support.right = linesAbout(volume, tile_column + 1, y);
-  support.distance = std::max(1, cvRound(settings_.support_distance_px / labels_.step_px));
+  support.distance = std::max(1, cvRound(SUPPORT_DISTANCE_PX / labels_.step_px));
   support.threshold = threshold;
   countSupported(support, labels.data(), counts);
 }
@@ -190,7 +197,7 @@ void BackgroundFusion::chooseFloors(int block_y, int labels)
         std::transform(about.begin(), about.end(), counts, about.begin(), std::plus<>());
       }
     }
-    floor_.at<std::int16_t>(block_y, block_x) = lowestBelieved(about, settings_.floor_quantile);
+    floor_.at<std::int16_t>(block_y, block_x) = lowestBelieved(about, FLOOR_QUANTILE);
   }
 }
 
@@ -221,8 +228,8 @@ void BackgroundFusion::chargeBlock(int block_x, int block_y, const std::vector<s
 
 void BackgroundFusion::hold(ThreadPool& pool, CostVolume& volume) const
 {
-  const auto charge = ramp(volume.bands.labels(), settings_.hold_slack_px / labels_.step_px,
-                           settings_.hold_per_px * labels_.step_px, settings_.max_hold);
+  const auto charge =
+      ramp(volume.bands.labels(), HOLD_SLACK_PX / labels_.step_px, HOLD_PER_PX * labels_.step_px, MAX_HOLD);
   pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {

@@ -13,23 +13,6 @@
 
 namespace light_field_depth::multiview
 {
-/// What a second search that prefers the background may change. Costs in the units of FULL_COST.
-struct BackgroundSettings
-{
-  float bias_per_px = 12.0F;  ///< charge for a label nearer than the floor
-  int max_bias = 48;          ///< of that charge
-  float support_distance_px = 0.25F;
-  float min_support = 12.0F;  ///< how much a label must be better than those at that distance to be believed
-  float floor_quantile = 0.05F;  ///< of the believed labels about a block: nothing is taken to be farther
-  float min_drop_px = 0.15F;     ///< smaller differences of the two searches are left alone
-  float accepted_energy = 0.9F;  ///< a region moves back only if its energy falls below this share,
-  float max_data_rise = 0.25F;   ///< its matching cost rises by less than this share of itself,
-  float max_cost_rise = 4.0F;    ///< and by less than this a pixel
-  float hold_per_px = 16.0F;     ///< charge in later searches for leaving the background
-  float hold_slack_px = 0.375F;  ///< that are free of it
-  int max_hold = 20;             ///< of that charge
-};
-
 /// Moves textureless regions back to the background. A contour moves with its nearer side, so a region
 /// without texture belongs to the farthest of its borders; a search that only asks for smoothness may leave
 /// it at any of them. A second search is made with costs that grow towards the viewer, down to a floor of
@@ -40,8 +23,7 @@ class BackgroundFusion
 public:
   /// Before the second search: finds the floor and adds the charges to the volume.
   /// @param disparity CV_32FC1, px, the first search
-  void prepare(const LabelSpace& labels, const cv::Mat& disparity, const BackgroundSettings& settings,
-               ThreadPool& pool, CostVolume& volume);
+  void prepare(const LabelSpace& labels, const cv::Mat& disparity, ThreadPool& pool, CostVolume& volume);
 
   /// After it: takes over the regions whose energy falls.
   /// @param volume as prepare() left it
@@ -70,8 +52,11 @@ private:
   std::size_t regionAt(int x, int y) const { return static_cast<std::size_t>(regions_.at<int>(y, x)); }
   float biasAt(int x, int y, float label) const;
 
+  // Costs in the units of FULL_COST.
+  static constexpr float CHARGE_PER_PX = 12.0F;  // for a label nearer than the floor
+  static constexpr int MAX_CHARGE = 48;
+
   LabelSpace labels_;
-  BackgroundSettings settings_;
   cv::Mat label_;              // CV_32FC1 of the first search
   cv::Mat data_cost_;          // CV_32FC1 of the first search, without charges
   std::vector<int> believed_;  // pixels with a believed label: [row of tiles][column of blocks][label]

@@ -12,6 +12,13 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int ROWS_PER_CHUNK = 16;
+/// Smaller differences of the two searches are left alone.
+constexpr float MIN_DROP_PX = 0.15F;
+/// A region moves back only if its energy falls below this share, its matching cost rises by less than this
+/// share of itself, and by less than this a pixel.
+constexpr double MAX_ENERGY_SHARE = 0.9F;
+constexpr double MAX_DATA_RISE = 0.25F;
+constexpr double MAX_COST_RISE = 4.0F;
 
 /// The cost between two labels of the pixel's band.
 float interpolatedCost(const CostVolume& volume, int x, int y, float label)
@@ -46,10 +53,9 @@ struct Energy
 float BackgroundFusion::biasAt(int x, int y, float label) const
 {
   const std::int16_t floor = floor_.at<std::int16_t>(y / BLOCK_PX, x / BLOCK_PX);
-  return floor == NO_LABEL
-             ? 0.0F
-             : std::clamp(settings_.bias_per_px * labels_.step_px * (label - static_cast<float>(floor)), 0.0F,
-                          static_cast<float>(settings_.max_bias));
+  return floor == NO_LABEL ? 0.0F
+                           : std::clamp(CHARGE_PER_PX * labels_.step_px * (label - static_cast<float>(floor)),
+                                        0.0F, static_cast<float>(MAX_CHARGE));
 }
 
 /// A connected part of the image that the second search places farther.
@@ -60,11 +66,11 @@ struct BackgroundFusion::Region
   Energy moved;
 
   /// Texture that speaks against the move shows in the data alone, however smooth the result would be.
-  bool accepted(const BackgroundSettings& settings) const
+  bool accepted() const
   {
     const double rise = moved.data - kept.data;
-    return moved.total() < settings.accepted_energy * kept.total() &&
-           rise < settings.max_data_rise * kept.data && rise < settings.max_cost_rise * pixels;
+    return moved.total() < MAX_ENERGY_SHARE * kept.total() && rise < MAX_DATA_RISE * kept.data &&
+           rise < MAX_COST_RISE * pixels;
   }
 };
 
@@ -83,7 +89,7 @@ void BackgroundFusion::fuse(const CostVolume& volume, const PathAggregator& path
   forFarther(
       [&](int x, int y)
       {
-        if (regions[regionAt(x, y)].accepted(settings_))
+        if (regions[regionAt(x, y)].accepted())
         {
           disparity.at<float>(y, x) = background.at<float>(y, x);
           const int label = cvRound(labels_.label(background.at<float>(y, x)));
@@ -108,7 +114,7 @@ bool BackgroundFusion::markFarther(const cv::Mat& background, ThreadPool& pool, 
                        auto* const farther = farther_.ptr<std::uint8_t>(y);
                        for (int x = 0; x < disparity.cols; ++x)
                        {
-                         farther[x] = static_cast<std::uint8_t>(here[x] - there[x] > settings_.min_drop_px);
+                         farther[x] = static_cast<std::uint8_t>(here[x] - there[x] > MIN_DROP_PX);
                        }
                        marked_rows_[static_cast<std::size_t>(y)] =
                            static_cast<std::uint8_t>(isMarked(farther, disparity.cols));

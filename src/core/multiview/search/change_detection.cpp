@@ -7,7 +7,27 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-constexpr int SAMPLES_PER_TILE = TILE_PX * TILE_PX / WATCHED_ROW_STRIDE;
+// Costs in the units of FULL_COST.
+
+/// The costs of all labels are computed in every so manieth row, whatever the bands.
+constexpr int OBSERVED_ROW_STRIDE = 8;
+constexpr int OBSERVED_ROW = 3;
+constexpr int SAMPLES_PER_TILE = TILE_PX * TILE_PX / OBSERVED_ROW_STRIDE;
+/// A label outside the band speaks against it if its cost is lower by this.
+constexpr int CLEARLY_BETTER = 30;
+/// Pixels of SAMPLES_PER_TILE that must say so before the tile is searched in full.
+constexpr int MIN_OUTSIDE_PIXELS = 3;
+/// Share of the tiles that must be searched in full before the scene counts as another one.
+constexpr float MAX_CHANGED_TILES = 0.35F;
+/// A pixel whose best cost of all is above this has its disparity outside the range, or is occluded.
+constexpr int UNEXPLAINED_COST = 120;
+/// More such pixels in a tile than in the last frame there mean that something has left the range.
+constexpr int UNEXPLAINED_MORE = 24;
+/// Such pixels in the whole image: times those of the last frame that was searched in full, and as a share.
+constexpr float UNEXPLAINED_GROWTH = 1.5F;
+constexpr float UNEXPLAINED_MORE_SHARE = 0.01F;
+/// More pixels at the first or last label than in the last frame that was searched in full, as a share.
+constexpr float AT_ENDS_MORE_SHARE = 0.003F;
 
 /// Pixels that have the first or the last label.
 int countAtEnds(const cv::Mat& disparity, const LabelSpace& labels)
@@ -25,12 +45,6 @@ int countAtEnds(const cv::Mat& disparity, const LabelSpace& labels)
     }
   }
   return count;
-}
-
-int unexplainedIn(const std::vector<TileSample>& samples)
-{
-  return std::accumulate(samples.begin(), samples.end(), 0,
-                         [](int sum, const TileSample& sample) { return sum + sample.unexplained; });
 }
 
 /// Calls body(row, column) for a tile and the tiles around it.
@@ -55,6 +69,27 @@ void ChangeDetector::begin(const LabelBands& bands)
   samples_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_), {});
 }
 
+bool ChangeDetector::wants(int y) const
+{
+  return y % OBSERVED_ROW_STRIDE == OBSERVED_ROW;
+}
+
+void ChangeDetector::observe(int y, const std::uint8_t* inside, const std::uint8_t* outside, int width)
+{
+  for (int x = 0; x < width; ++x)
+  {
+    TileSample& tile = samples_[index(y / TILE_PX, x / TILE_PX)];
+    tile.outside += outside[x] + CLEARLY_BETTER < inside[x] ? 1 : 0;
+    tile.unexplained += std::min(inside[x], outside[x]) > UNEXPLAINED_COST ? 1 : 0;
+  }
+}
+
+int ChangeDetector::unexplainedIn(const std::vector<TileSample>& samples)
+{
+  return std::accumulate(samples.begin(), samples.end(), 0,
+                         [](int sum, const TileSample& sample) { return sum + sample.unexplained; });
+}
+
 void ChangeDetector::acceptFull()
 {
   unexplained_in_full_ = unexplainedIn(samples_);
@@ -69,10 +104,11 @@ int ChangeDetector::unexplainedAround(int row, int column) const
   return most;
 }
 
-bool ChangeDetector::hasLeftTheRange(const ChangeDetectionSettings& settings) const
+bool ChangeDetector::hasLeftTheRange() const
 {
   const float all = static_cast<float>(samples_.size()) * SAMPLES_PER_TILE;
-  const float limit = static_cast<float>(unexplained_in_full_) * 1.5F + settings.unexplained_more_share * all;
+  const float limit =
+      static_cast<float>(unexplained_in_full_) * UNEXPLAINED_GROWTH + UNEXPLAINED_MORE_SHARE * all;
   if (static_cast<float>(unexplainedIn(samples_)) > limit)
   {
     return true;
@@ -81,8 +117,7 @@ bool ChangeDetector::hasLeftTheRange(const ChangeDetectionSettings& settings) co
   {
     for (int column = 0; column < columns_; ++column)
     {
-      if (samples_[index(row, column)].unexplained >
-          unexplainedAround(row, column) + settings.unexplained_more)
+      if (samples_[index(row, column)].unexplained > unexplainedAround(row, column) + UNEXPLAINED_MORE)
       {
         return true;
       }
@@ -91,14 +126,13 @@ bool ChangeDetector::hasLeftTheRange(const ChangeDetectionSettings& settings) co
   return false;
 }
 
-bool ChangeDetector::acceptNear(const ChangeDetectionSettings& settings, LabelBands& bands,
-                                std::vector<std::uint8_t>& widened)
+bool ChangeDetector::acceptNear(LabelBands& bands, std::vector<std::uint8_t>& widened)
 {
   const auto changed =
       std::count_if(samples_.begin(), samples_.end(),
-                    [&](const TileSample& sample) { return sample.outside >= settings.outside_pixels; });
-  if (static_cast<float>(changed) > settings.max_changed_tiles * static_cast<float>(samples_.size()) ||
-      hasLeftTheRange(settings))
+                    [&](const TileSample& sample) { return sample.outside >= MIN_OUTSIDE_PIXELS; });
+  if (static_cast<float>(changed) > MAX_CHANGED_TILES * static_cast<float>(samples_.size()) ||
+      hasLeftTheRange())
   {
     return false;
   }
@@ -107,7 +141,7 @@ bool ChangeDetector::acceptNear(const ChangeDetectionSettings& settings, LabelBa
   {
     for (int column = 0; column < columns_; ++column)
     {
-      if (samples_[index(row, column)].outside < settings.outside_pixels)
+      if (samples_[index(row, column)].outside < MIN_OUTSIDE_PIXELS)
       {
         continue;
       }
@@ -128,11 +162,10 @@ void ChangeDetector::acceptFullMap(const cv::Mat& disparity, const LabelSpace& l
   at_ends_in_full_ = countAtEnds(disparity, labels);
 }
 
-bool ChangeDetector::acceptNearMap(const ChangeDetectionSettings& settings, const cv::Mat& disparity,
-                                   const LabelSpace& labels) const
+bool ChangeDetector::acceptNearMap(const cv::Mat& disparity, const LabelSpace& labels) const
 {
   const auto more = static_cast<float>(countAtEnds(disparity, labels) - at_ends_in_full_);
-  return more <= settings.at_ends_more_share * static_cast<float>(disparity.total());
+  return more <= AT_ENDS_MORE_SHARE * static_cast<float>(disparity.total());
 }
 
 }  // namespace light_field_depth::multiview

@@ -12,6 +12,8 @@ namespace
 {
 constexpr int TILE_ROWS_PER_CHUNK = 2;
 constexpr std::uint8_t NO_COST = 255;
+/// Labels by which a surface must be nearer to hide a point.
+constexpr int HIDDEN_MARGIN_LABELS = 2;
 
 /// Half of the arms, as a number that the kernel can average.
 int bestArms(std::size_t arms)
@@ -75,7 +77,7 @@ struct CostVolumeBuilder::Scratch
   std::vector<const std::uint8_t*> shifted_pointers;  // where a run of tiles begins
   std::vector<const std::uint8_t*> shifted_surfaces;
   std::vector<std::uint8_t> cost;     // of one label in one row
-  std::vector<std::uint8_t> inside;   // least cost of the labels in the band, of a watched row
+  std::vector<std::uint8_t> inside;   // least cost of the labels in the band, of an observed row
   std::vector<std::uint8_t> outside;  // of the others
 };
 
@@ -85,10 +87,9 @@ struct CostVolumeBuilder::Task
   const ViewSet& views;
   const LabelSpace& labels;
   const CostSettings& settings;
-  const VisibleSurfaces* surfaces = nullptr;                ///< nullptr: from the arms
-  const std::vector<std::uint8_t>* only = nullptr;          ///< tiles to fill; nullptr: all
-  const ChangeDetectionSettings* watch_settings = nullptr;  ///< with `watch`
-  ChangeDetector* watch = nullptr;                          ///< nullptr: nobody watches
+  const VisibleSurfaces* surfaces = nullptr;        ///< nullptr: from the arms
+  const std::vector<std::uint8_t>* only = nullptr;  ///< tiles to fill; nullptr: all
+  RowObserver* observer = nullptr;
 };
 
 CostVolumeBuilder::CostVolumeBuilder() = default;
@@ -101,16 +102,13 @@ void CostVolumeBuilder::buildFromArms(const ViewSet& views, const LabelSpace& la
   build({views, labels, settings}, pool, volume);
 }
 
-void CostVolumeBuilder::buildAndWatch(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
-                                      const CostSettings& settings,
-                                      const ChangeDetectionSettings& watch_settings, ThreadPool& pool,
-                                      CostVolume& volume, ChangeDetector& watch)
+void CostVolumeBuilder::buildObserved(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
+                                      const CostSettings& settings, RowObserver& observer, ThreadPool& pool,
+                                      CostVolume& volume)
 {
   volume.create(views.width(), views.height(), bands, CostVolume::Room::AllLabels);
-  watch.begin(bands);
   Task task{views, labels, settings};
-  task.watch_settings = &watch_settings;
-  task.watch = &watch;
+  task.observer = &observer;
   build(task, pool, volume);
 }
 
@@ -161,9 +159,9 @@ struct CostVolumeBuilder::RowJob
 
   void run(int y) const
   {
-    if (task.watch != nullptr && isWatchedRow(y))
+    if (task.observer != nullptr && task.observer->wants(y))
     {
-      runWatched(y);
+      runObserved(y);
       return;
     }
     const int columns = volume.bands.columns();
@@ -225,7 +223,7 @@ private:
   }
 
   /// All labels in all tiles, of which those in the bands are stored.
-  void runWatched(int y) const
+  void runObserved(int y) const
   {
     const int columns = volume.bands.columns();
     const auto width = static_cast<std::size_t>(columns) * TILE_PX;
@@ -251,14 +249,7 @@ private:
         }
       }
     }
-    for (int x = 0; x < views.width(); ++x)
-    {
-      const int inside = scratch.inside[static_cast<std::size_t>(x)];
-      const int outside = scratch.outside[static_cast<std::size_t>(x)];
-      TileSample& tile = task.watch->at(y / TILE_PX, x / TILE_PX);
-      tile.outside += outside + task.watch_settings->clearly_better < inside ? 1 : 0;
-      tile.unexplained += std::min(inside, outside) > task.watch_settings->unexplained_cost ? 1 : 0;
-    }
+    task.observer->observe(y, scratch.inside.data(), scratch.outside.data(), views.width());
   }
 
   /// One label in neighbouring tiles, from the beginning of scratch.cost.
@@ -322,7 +313,7 @@ private:
     row.channels = views.reference.channels();
     row.width = width;
     row.truncation = settings.truncation;
-    row.hidden_above = std::min(label + 1 + settings.hidden_margin, OUT_OF_FRAME - 1);
+    row.hidden_above = std::min(label + 1 + HIDDEN_MARGIN_LABELS, OUT_OF_FRAME - 1);
     row.min_seeing_views = settings.min_seeing_views;
     row.unseen_penalty = settings.unseen_penalty;
     visibleCostRow(row, scratch.cost.data());

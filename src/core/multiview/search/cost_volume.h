@@ -7,7 +7,6 @@
 
 #include "core/base/scratch_pool.h"
 #include "core/light_field/view_set.h"
-#include "core/multiview/search/change_detection.h"
 #include "core/multiview/search/label_bands.h"
 #include "core/multiview/search/label_space.h"
 #include "core/multiview/search/sample_rows.h"
@@ -64,7 +63,18 @@ struct CostSettings
   /// would beat what several views see badly.
   int unseen_penalty = 30;
   int min_seeing_views = 3;
-  int hidden_margin = 2;  ///< labels by which a surface must be nearer to hide a point
+};
+
+/// Is told how well all labels match in some rows, whatever the bands. The rows of one tile come from one
+/// thread, those of others from other threads at the same time.
+class RowObserver
+{
+public:
+  virtual ~RowObserver() = default;
+  virtual bool wants(int y) const = 0;
+  /// @param inside, outside [width] the least cost of the labels in the pixel's band and of the others,
+  ///   255 where there are none
+  virtual void observe(int y, const std::uint8_t* inside, const std::uint8_t* outside, int width) = 0;
 };
 
 /// Fills cost volumes, in each tile the labels of its band. Keeps its scratch memory; one call at a time.
@@ -78,12 +88,12 @@ public:
   void buildFromArms(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
                      const CostSettings& settings, ThreadPool& pool, CostVolume& volume);
 
-  /// The same, and tells the watch of all labels in some of the rows.
-  void buildAndWatch(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
-                     const CostSettings& settings, const ChangeDetectionSettings& watch_settings,
-                     ThreadPool& pool, CostVolume& volume, ChangeDetector& watch);
+  /// The same, with an observer of some rows, and with room for all labels in each tile.
+  void buildObserved(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
+                     const CostSettings& settings, RowObserver& observer, ThreadPool& pool,
+                     CostVolume& volume);
 
-  /// Some tiles of a volume from buildFromArms() once more, with other bands there.
+  /// Some tiles of a volume from buildObserved() once more, with other bands there.
   /// @param tiles for each tile whether it is rebuilt; the bands of the others are as before
   void rebuildTiles(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
                     const std::vector<std::uint8_t>& tiles, const CostSettings& settings, ThreadPool& pool,

@@ -79,8 +79,7 @@ void PathAggregator::setGuide(const PlanarImage& guide, const PathSettings& sett
   step_above_.resize(step_left_.size());
   StepRow steps;
   steps.large_change_penalty = static_cast<float>(settings.large_change_penalty);
-  steps.min_large_change_penalty =
-      settings.large_change_floor * static_cast<float>(settings.small_change_penalty);
+  steps.min_large_change_penalty = LARGE_CHANGE_FLOOR * static_cast<float>(settings.small_change_penalty);
   steps.width = guide.width();
   const auto setRow = [&](int y, StepRow row)
   {

@@ -14,12 +14,14 @@
 
 namespace light_field_depth::multiview
 {
+/// P2 never falls below this many P1.
+constexpr float LARGE_CHANGE_FLOOR = 0.5F;
+
 /// Smoothness along the paths, in the units of FULL_COST.
 struct PathSettings
 {
   int small_change_penalty = 30;    ///< P1, for a change by one label
   int large_change_penalty = 1200;  ///< P2 for larger changes where the image does not change at all
-  float large_change_floor = 0.5F;  ///< P2 never falls below this many P1
 };
 
 /// Adds up the costs along the paths from the left, right, top and bottom, and takes the best label. Keeps

@@ -14,15 +14,19 @@ namespace
 constexpr int RADIUS = 2;
 constexpr int SIZE = 2 * RADIUS + 1;
 constexpr int ROWS_PER_CHUNK = 16;
+/// How much nearer than its surroundings a structure has to be.
+constexpr float MIN_JUMP_PX = 0.2F;
+/// Sum of three channels: neighbours lose exp(-difference / scale) of their vote.
+constexpr float COLOUR_SCALE = 30.0F;
 
 using VoteTable = std::array<float, COLOUR_DIFFERENCES>;
 
-VoteTable makeVotes(const ThinStructureSettings& settings)
+VoteTable makeVotes()
 {
   VoteTable votes{};
   for (std::size_t difference = 0; difference < votes.size(); ++difference)
   {
-    votes[difference] = std::exp(-static_cast<float>(difference) / settings.colour_scale);
+    votes[difference] = std::exp(-static_cast<float>(difference) / COLOUR_SCALE);
   }
   return votes;
 }
@@ -81,12 +85,12 @@ private:
 
 }  // namespace
 
-void keepThinStructures(const PlanarImage& guide, const cv::Mat& searched,
-                        const ThinStructureSettings& settings, ThreadPool& pool, cv::Mat& disparity)
+void keepThinStructures(const PlanarImage& guide, const cv::Mat& searched, ThreadPool& pool,
+                        cv::Mat& disparity)
 {
   cv::Mat nearest;
   cv::dilate(searched, nearest, cv::Mat::ones(SIZE, SIZE, CV_8UC1));
-  const VoteTable votes = makeVotes(settings);
+  const VoteTable votes = makeVotes();
   pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
@@ -96,7 +100,7 @@ void keepThinStructures(const PlanarImage& guide, const cv::Mat& searched,
                        const auto* const limit = nearest.ptr<float>(y);
                        for (int x = 0; x < disparity.cols; ++x)
                        {
-                         const float jump = row[x] + settings.min_jump_px;
+                         const float jump = row[x] + MIN_JUMP_PX;
                          if (limit[x] <= jump)
                          {
                            continue;

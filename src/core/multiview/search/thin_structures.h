@@ -8,20 +8,12 @@
 
 namespace light_field_depth::multiview
 {
-/// How twigs and wires that a median would wipe out are kept.
-struct ThinStructureSettings
-{
-  float min_jump_px = 0.2F;  ///< how much nearer than its surroundings a structure has to be
-  float colour_scale =
-      30.0F;  ///< sum of three channels: neighbours lose exp(-difference / scale) of their vote
-};
-
 /// Gives a pixel the median of the neighbours that look like it, where that is nearer than the plain median.
 /// A structure that is thinner than the window is outvoted in the plain median; its own pixels are alike.
 /// @param searched CV_32FC1, px: the map before the plain median
 /// @param disparity CV_32FC1, px: the plain median of `searched` on entry, the result on return
-void keepThinStructures(const PlanarImage& guide, const cv::Mat& searched,
-                        const ThinStructureSettings& settings, ThreadPool& pool, cv::Mat& disparity);
+void keepThinStructures(const PlanarImage& guide, const cv::Mat& searched, ThreadPool& pool,
+                        cv::Mat& disparity);
 
 }  // namespace light_field_depth::multiview
 

@@ -58,7 +58,7 @@ protected:
     aggregator_.setGuide(guide_, paths, pool_);
     aggregator_.aggregate(volume_, paths, pool_, labels);
     cv::Mat disparity = first_search_.clone();
-    fusion_.prepare(labels_, disparity, {}, pool_, volume_);
+    fusion_.prepare(labels_, disparity, pool_, volume_);
     fusion_.fuse(volume_, aggregator_, paths, background_map_, pool_, disparity);
     return disparity;
   }

@@ -204,8 +204,8 @@ struct Problem
     const int change = 3 * std::abs(guide.row(y)[x] - guide.row(from_y)[from_x]);
     const float step =
         static_cast<float>(settings.large_change_penalty) / (1.0F + static_cast<float>(change));
-    return static_cast<int>(std::lround(
-        std::max(settings.large_change_floor * static_cast<float>(settings.small_change_penalty), step)));
+    return static_cast<int>(
+        std::lround(std::max(LARGE_CHANGE_FLOOR * static_cast<float>(settings.small_change_penalty), step)));
   }
 
   /// The formula of the header, pixel by pixel.

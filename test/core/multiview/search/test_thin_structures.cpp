@@ -29,7 +29,7 @@ cv::Mat keptMap(const PlanarImage& guide, float line_disparity)
   cv::Mat disparity;
   cv::medianBlur(searched, disparity, 5);
   ThreadPool pool(2);
-  keepThinStructures(guide, searched, {}, pool, disparity);
+  keepThinStructures(guide, searched, pool, disparity);
   return disparity;
 }
 
