@@ -116,21 +116,22 @@ SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures
 
 }  // namespace
 
-/// What is kept from frame to frame.
-struct MultiviewEstimator::Buffers
+/// What lives from frame to frame. `sequence` and `solver` carry the last frame's result into the next one;
+/// the others only keep memory that the next frame uses again.
+struct MultiviewEstimator::FrameMemory
 {
-  multiview::Sequence sequence;
-  multiview::Solver solver;
-  multiview::HalfResolution half;
-  multiview::HalfResolution measured_half;
-  multiview::HalfResolution quarter;
-  multiview::HalfResolution coarse_half;
-  multiview::Solver coarse_solver;
+  multiview::Sequence sequence;     ///< whether the next frame may follow, and what was measured on the first
+  multiview::Solver solver;         ///< its last map is where a frame that follows is searched
+  multiview::Solver coarse_solver;  ///< of large light fields at half the resolution
+  multiview::HalfResolution half;   ///< what the preset `fast` solves
+  multiview::HalfResolution quarter;        ///< what the preset `fast` measures
+  multiview::HalfResolution measured_half;  ///< what the others measure
+  multiview::HalfResolution coarse_half;    ///< what coarse_solver solves
   std::vector<ViewDisparity> view_maps;
 };
 
 MultiviewEstimator::MultiviewEstimator(MultiviewOptions options)
-    : options_(options), buffers_(std::make_unique<Buffers>())
+    : options_(options), memory_(std::make_unique<FrameMemory>())
 {
 }
 
@@ -159,8 +160,8 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   {
     const StageTimer timer(context, "view_maps");
     multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool,
-                           buffers_->view_maps);
-    estimate.view_disparities = buffers_->view_maps;
+                           memory_->view_maps);
+    estimate.view_disparities = memory_->view_maps;
   }
   return estimate;
 }
@@ -168,7 +169,7 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
 LightField MultiviewEstimator::reduced(const LightField& chosen, RunContext& context)
 {
   const StageTimer timer(context, "halve");
-  return buffers_->half.reduce(multiview::withThinnedArms(chosen, FAST_VIEWS_PER_ARM), context.pool);
+  return memory_->half.reduce(multiview::withThinnedArms(chosen, FAST_VIEWS_PER_ARM), context.pool);
 }
 
 void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& request, RunContext& context,
@@ -176,7 +177,7 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
 {
   if (!options_.temporal)
   {
-    buffers_->sequence.forget();  // no later frame may follow what the solver is going to hold
+    memory_->sequence.forget();  // no later frame may follow what the solver is going to hold
   }
   else if (follow(views, request, context, estimate))
   {
@@ -195,13 +196,13 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
   else
   {
     const SolverSettings settings = solverSettings(options_, measures, unit);
-    buffers_->solver.run(inSolverUnit(chosen, unit), settings, context);
+    memory_->solver.run(inSolverUnit(chosen, unit), settings, context);
   }
   estimate.range = measures.range;
   keepResult(unit, estimate);
   if (options_.temporal && !large)
   {
-    buffers_->sequence.begin(std::move(measures));
+    memory_->sequence.begin(std::move(measures));
   }
 }
 
@@ -216,7 +217,7 @@ LightField MultiviewEstimator::measure(const LightField& views, const EstimateRe
   LightField small;
   {
     const StageTimer timer(context, "exposure");
-    small = halved ? buffers_->measured_half.reduceInColour(views, context.pool) : views;
+    small = halved ? memory_->measured_half.reduceInColour(views, context.pool) : views;
     measures.exposures = estimateExposure(small, context.pool, range_options.max_displacement_px);
     chosen = compensateExposure(views, measures.exposures, context.pool);
   }
@@ -249,12 +250,12 @@ LightField MultiviewEstimator::measureQuickly(const LightField& views, const Est
   measures.exposures.resize(views.views.size());
   {
     const StageTimer timer(context, "exposure");
-    quarter = buffers_->quarter.reduce(views, context.pool);
+    quarter = memory_->quarter.reduce(views, context.pool);
     if (!multiview::looksEvenlyExposed(quarter))
     {
       measures.exposures = estimateExposure(views, context.pool);
       chosen = compensateExposure(views, measures.exposures, context.pool);
-      quarter = buffers_->quarter.reduce(chosen, context.pool);
+      quarter = memory_->quarter.reduce(chosen, context.pool);
     }
   }
   {
@@ -278,9 +279,9 @@ void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const Scene
   options.temporal = false;
   MultiviewOptions coarse_options = options;
   coarse_options.refinements = std::min(options.refinements, 1);
-  const LightField half = buffers_->coarse_half.reduce(chosen, context.pool);
+  const LightField half = memory_->coarse_half.reduce(chosen, context.pool);
   const double half_unit = solverUnit(half);
-  multiview::Solver& coarse_solver = buffers_->coarse_solver;
+  multiview::Solver& coarse_solver = memory_->coarse_solver;
   coarse_solver.run(inSolverUnit(half, half_unit), solverSettings(coarse_options, measures, half_unit),
                     context);
   DisparityEstimate coarse;
@@ -288,8 +289,8 @@ void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const Scene
   coarse.confidence = coarse_solver.confidence();
   upsample(chosen.reference().image, context, coarse);
   const double unit = solverUnit(chosen);
-  buffers_->solver.runNear(inSolverUnit(chosen, unit), solverSettings(options, measures, unit),
-                           coarse.disparity * unit, context);
+  memory_->solver.runNear(inSolverUnit(chosen, unit), solverSettings(options, measures, unit),
+                          coarse.disparity * unit, context);
 }
 
 /// The frame with what was measured on the last one that was searched in full.
@@ -297,7 +298,7 @@ void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const Scene
 bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& request, RunContext& context,
                                 DisparityEstimate& estimate)
 {
-  const SceneMeasures* const measures = buffers_->sequence.follow(views, {options_, request.disparity_range});
+  const SceneMeasures* const measures = memory_->sequence.follow(views, {options_, request.disparity_range});
   if (measures == nullptr)
   {
     return false;
@@ -313,20 +314,20 @@ bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& 
     here.noise_sigma = estimateNoise(chosen.reference().image);
   }
   const double unit = solverUnit(chosen);
-  if (!buffers_->solver.follow(inSolverUnit(chosen, unit), solverSettings(options_, here, unit), context))
+  if (!memory_->solver.follow(inSolverUnit(chosen, unit), solverSettings(options_, here, unit), context))
   {
     return false;
   }
   estimate.range = here.range;
   keepResult(unit, estimate);
-  buffers_->sequence.keep();
+  memory_->sequence.keep();
   return true;
 }
 
 void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) const
 {
-  buffers_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
-  estimate.confidence = buffers_->solver.confidence().clone();
+  memory_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
+  estimate.confidence = memory_->solver.confidence().clone();
 }
 
 void MultiviewEstimator::upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate)

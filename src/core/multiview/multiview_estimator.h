@@ -30,7 +30,7 @@ public:
                              RunContext& context) override;
 
 private:
-  struct Buffers;
+  struct FrameMemory;
   LightField reduced(const LightField& chosen, RunContext& context);
   void solve(const LightField& views, const EstimateRequest& request, RunContext& context,
              DisparityEstimate& estimate);
@@ -46,7 +46,7 @@ private:
   void upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate);
 
   MultiviewOptions options_;
-  std::unique_ptr<Buffers> buffers_;
+  std::unique_ptr<FrameMemory> memory_;
 };
 
 }  // namespace light_field_depth
