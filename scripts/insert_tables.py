@@ -4,7 +4,9 @@
 A document marks the place by two lines of its own,
     <!-- benchmark/results/NAME.md -->
     <!-- end of table -->
-and whatever stands between them is replaced by that file. Places whose file does not exist stay as they are.
+and whatever stands between them is replaced by that file. Places whose file does not exist stay as they are. With
+    <!-- benchmark/results/NAME.md, SCENE, SCENE -->
+a place takes the rows of these scenes alone, which is their first column.
 """
 
 import pathlib
@@ -13,15 +15,26 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENTS = ("README.md", "docs/experiments.md", "docs/performance.md")
-PLACE = re.compile(r"(<!-- (benchmark/results/\w+\.md) -->\n).*?(<!-- end of table -->\n)", re.DOTALL)
+PLACE = re.compile(r"(<!-- (benchmark/results/\w+\.md)((?:, [\w ]+)*) -->\n).*?(<!-- end of table -->\n)", re.DOTALL)
+HEAD_ROWS = 2
+
+
+def rows_of(table, scenes):
+    """The head of a table and the rows of some scenes."""
+    rows = [line for line in table.splitlines() if line.startswith("|")]
+    chosen = [row for row in rows[HEAD_ROWS:] if row.split("|")[1].strip() in scenes]
+    return "\n".join(rows[:HEAD_ROWS] + chosen) + "\n"
 
 
 def with_table(place):
-    begin, name, end = place.groups()
+    begin, name, scenes, end = place.groups()
     table = TOP / name
     if not table.exists():
         return place.group(0)
-    return begin + "\n" + table.read_text(encoding="utf-8") + "\n" + end
+    text = table.read_text(encoding="utf-8")
+    if scenes:
+        text = rows_of(text, [scene.strip() for scene in scenes.split(",")])
+    return begin + "\n" + text + "\n" + end
 
 
 def main():

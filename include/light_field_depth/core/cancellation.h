@@ -11,9 +11,9 @@ namespace light_field_depth
 class CancellationToken
 {
 public:
-  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
-  void reset() { cancelled_.store(false, std::memory_order_relaxed); }
-  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }  ///< asks whoever checks to stop
+  void reset() { cancelled_.store(false, std::memory_order_relaxed); }  ///< as if nobody had asked
+  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }  ///< whether somebody asked
 
   /// @throw Cancelled after cancel().
   void check() const

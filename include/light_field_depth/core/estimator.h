@@ -41,7 +41,7 @@ struct DisparityEstimate
 struct EstimateRequest
 {
   std::optional<DisparityRange> disparity_range;  ///< found from the images when absent
-  ViewSelection views = ViewSelection::Auto;
+  ViewSelection views = ViewSelection::Auto;      ///< which views take part
   bool view_disparities = false;  ///< also compute the maps of the other views, for the dense cloud
 };
 

@@ -13,8 +13,8 @@ namespace light_field_depth
 /// Where a view stands in the grid of its light field. Rows grow downwards, columns to the right.
 struct GridPosition
 {
-  int row = 0;
-  int column = 0;
+  int row = 0;     ///< downwards
+  int column = 0;  ///< to the right
 };
 
 inline bool operator==(const GridPosition& a, const GridPosition& b)
@@ -37,7 +37,7 @@ std::string toString(const GridPosition& position);
 /// (component by component). On an ideal grid, steps = (column - column0, row - row0) and offset_px = 0.
 struct View
 {
-  GridPosition grid;
+  GridPosition grid;  ///< its place
 
   /// CV_8UC1, CV_8UC3 (BGR), CV_16UC1 or CV_16UC3; the same size and type in all views of a light field.
   cv::Mat image;
@@ -75,20 +75,20 @@ struct Calibration
 /// Disparities in pixels per grid step, min < max.
 struct DisparityRange
 {
-  float min = 0.0F;
-  float max = 0.0F;
+  float min = 0.0F;  ///< of the farthest points
+  float max = 0.0F;  ///< of the nearest points
 };
 
 /// A set of rectified views on a common plane. Any subset of a grid is legal: a row, a column, a cross, a
 /// sparse grid. Images are shared, not copied, when a LightField is copied.
 struct LightField
 {
-  std::vector<View> views;          ///< in row-major order of their grid positions, no position twice
-  std::size_t reference_index = 0;  ///< the view that the disparity map belongs to
-  std::optional<Calibration> calibration;
+  std::vector<View> views;                 ///< in row-major order of their grid positions, no position twice
+  std::size_t reference_index = 0;         ///< the view that the disparity map belongs to
+  std::optional<Calibration> calibration;  ///< absent: there are no metres
 
-  const View& reference() const { return views[reference_index]; }
-  cv::Size size() const { return views.empty() ? cv::Size() : reference().image.size(); }
+  const View& reference() const { return views[reference_index]; }  ///< the view at reference_index
+  cv::Size size() const { return views.empty() ? cv::Size() : reference().image.size(); }  ///< of each view
 };
 
 /// Checks the views, sorts them row-major, chooses the reference (the view nearest the middle of the grid

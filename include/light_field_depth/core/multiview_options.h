@@ -29,7 +29,7 @@ struct MultiviewOptions
   /// PRESET_NUMBER leaves a number to the preset.
   static constexpr int PRESET_NUMBER = -1;
 
-  MultiviewPreset preset = MultiviewPreset::Balanced;
+  MultiviewPreset preset = MultiviewPreset::Balanced;  ///< time against accuracy
   /// Distance between the disparities that are tried, in pixels; smaller is slower and finer. PRESET_NUMBER:
   /// 1/16 with the preset quality, else 1/8.
   float label_step_px = PRESET_NUMBER;

@@ -97,8 +97,8 @@ RefinementViews refinementViewsFromString(const std::string& name);
 /// The one-step variational refinement of EpicFlow (paper, 3.3.1), reduced to disparity.
 struct VariationalOptions
 {
-  bool enabled = true;
-  RefinementViews views = RefinementViews::All;
+  bool enabled = true;                           ///< false: the paper's ablation
+  RefinementViews views = RefinementViews::All;  ///< that are compared with the reference
   /// Weight of the smoothness. Raise it for noisy views.
   double smoothness = 1.0;
   /// Weight of the gradient constancy.
@@ -146,12 +146,12 @@ MatchDirections matchDirectionsFromString(const std::string& name);
 /// Settings of the method of Chen, Alain and Smolic (2017).
 struct Paper2017Options
 {
-  AngularVolumeOptions volumes;
-  FlowInitializer initializer = FlowInitializer::Cpm;
-  MatchDirections match_directions = MatchDirections::Forward;
-  PatchMatchOptions patch_match;
-  FeatureFlowOptions feature_flow;
-  VariationalOptions variational;
+  AngularVolumeOptions volumes;                                 ///< which rows and columns
+  FlowInitializer initializer = FlowInitializer::Cpm;           ///< what finds the first matches
+  MatchDirections match_directions = MatchDirections::Forward;  ///< which of them are diffused
+  PatchMatchOptions patch_match;                                ///< for FlowInitializer::Cpm
+  FeatureFlowOptions feature_flow;                              ///< how matches spread
+  VariationalOptions variational;                               ///< the last step
 };
 
 std::vector<std::string> validate(const Paper2017Options& options);

@@ -39,17 +39,17 @@ std::vector<std::string> methodNames();
 /// All settings of a run. Each stage's struct is the one home of its defaults.
 struct PipelineOptions
 {
-  Method method = Method::Multiview;
-  ViewSelection views = ViewSelection::Auto;
+  Method method = Method::Multiview;          ///< which estimator finds the disparity
+  ViewSelection views = ViewSelection::Auto;  ///< which views take part
   /// In pixels per grid step; found from the images when absent. A range that moves everything out of every
   /// view is refused.
   std::optional<DisparityRange> disparity_range;
-  Paper2017Options paper2017;
-  MultiviewOptions multiview;
+  Paper2017Options paper2017;  ///< for Method::Paper2017
+  MultiviewOptions multiview;  ///< for Method::Multiview
   /// Confidence below which the organised cloud and the depth map have NaN. Raise it to see only what is
   /// certain.
   float min_confidence = 0.0F;
-  DenseCloudOptions dense_cloud;
+  DenseCloudOptions dense_cloud;  ///< for the extra cloud of all views
 };
 
 /// One whole sentence for each option that cannot be used; empty when all can.
@@ -58,23 +58,24 @@ std::vector<std::string> validate(const PipelineOptions& options);
 /// The products that a caller wants; what is not wanted is not computed.
 struct ProductRequest
 {
-  bool depth = false;
-  bool organized_cloud = false;
-  bool dense_cloud = false;
+  bool depth = false;            ///< PipelineResult::depth
+  bool organized_cloud = false;  ///< PipelineResult::organized_cloud
+  bool dense_cloud = false;      ///< PipelineResult::dense_cloud
   /// Where the points go; empty: into the vectors of the result.
   PointAllocator organized_cloud_allocator;
-  PointAllocator dense_cloud_allocator;
+  PointAllocator dense_cloud_allocator;  ///< likewise
 };
 
+/// What a run gives: what was asked for, and how long it took.
 struct PipelineResult
 {
-  DisparityEstimate estimate;
-  cv::Mat depth;  ///< CV_32FC1 metres, NaN where unknown; empty without calibration
+  DisparityEstimate estimate;  ///< disparity and confidence; always there
+  cv::Mat depth;               ///< CV_32FC1 metres, NaN where unknown; empty without calibration
   // Both clouds are empty without calibration, and where the request has room for them.
   std::vector<ColoredPoint> organized_cloud;  ///< row-major, NaN where unknown
   std::vector<ColoredPoint> dense_cloud;      ///< no NaN
-  std::vector<StageTime> stage_times;
-  double total_ms = 0.0;
+  std::vector<StageTime> stage_times;         ///< in the order in which the stages began
+  double total_ms = 0.0;                      ///< of the whole run
 };
 
 /// Runs the stages in order. Keeps threads and buffers from frame to frame; used by one thread at a time,
@@ -86,11 +87,11 @@ public:
   explicit Pipeline(int threads = 0);
   ~Pipeline();
 
-  int threads() const { return pool_.threads(); }
+  int threads() const { return pool_.threads(); }  ///< the caller's included
 
   /// Receives intermediate results and progress of the following runs.
   void setIntermediateSink(IntermediateSink sink) { intermediate_sink_ = std::move(sink); }
-  void setProgressSink(ProgressSink sink) { progress_sink_ = std::move(sink); }
+  void setProgressSink(ProgressSink sink) { progress_sink_ = std::move(sink); }  ///< likewise
 
   /// @throw InputError for options or input that cannot be used, Cancelled after cancel()
   PipelineResult run(const LightField& light_field, const PipelineOptions& options,

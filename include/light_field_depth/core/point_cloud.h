@@ -19,13 +19,13 @@ namespace light_field_depth
 /// Laid out like a PointCloud2 with fields x y z rgb and a point_step of 16 bytes.
 struct ColoredPoint
 {
-  float x;
-  float y;
-  float z;
-  std::uint8_t b;
-  std::uint8_t g;
-  std::uint8_t r;
-  std::uint8_t unused;
+  float x;              ///< metres
+  float y;              ///< metres
+  float z;              ///< metres
+  std::uint8_t b;       ///< blue
+  std::uint8_t g;       ///< green
+  std::uint8_t r;       ///< red
+  std::uint8_t unused;  ///< fills the 16 bytes
 };
 static_assert(sizeof(ColoredPoint) == 16, "the clouds are written straight into message buffers");
 
@@ -43,6 +43,7 @@ using PointAllocator = std::function<ColoredPoint*(std::size_t count)>;
 void unprojectReference(const LightField& light_field, const cv::Mat& disparity, const cv::Mat& confidence,
                         float min_confidence, ThreadPool& pool, ColoredPoint* points);
 
+/// Which points the dense cloud has.
 struct DenseCloudOptions
 {
   /// Points of lower confidence are left out. Raise it when the cloud has stray points.

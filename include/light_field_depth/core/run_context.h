@@ -16,8 +16,8 @@ namespace light_field_depth
 /// Wall-clock time of one stage of the pipeline.
 struct StageTime
 {
-  std::string stage;
-  double milliseconds = 0.0;
+  std::string stage;          ///< its name, as in 'visible_cost'
+  double milliseconds = 0.0;  ///< of wall-clock time
 };
 
 /// Receives intermediate results: a name usable as a file name without extension, and a matrix.
@@ -30,9 +30,9 @@ using ProgressSink = std::function<void(const std::string& stage, double fractio
 /// as in 'visible_cost'. Belongs to one run on one thread.
 struct RunContext
 {
-  explicit RunContext(ThreadPool& thread_pool) : pool(thread_pool) {}
+  explicit RunContext(ThreadPool& thread_pool) : pool(thread_pool) {}  ///< a run without sinks
 
-  ThreadPool& pool;
+  ThreadPool& pool;                    ///< used by one stage at a time
   std::vector<StageTime> stage_times;  ///< in order of first appearance; repeated stages are added up
   IntermediateSink save_intermediate;  ///< empty when nobody wants them
   ProgressSink progress;               ///< empty when nobody wants it
@@ -45,7 +45,7 @@ struct RunContext
 class StageTimer
 {
 public:
-  StageTimer(RunContext& context, std::string stage);
+  StageTimer(RunContext& context, std::string stage);  ///< the context must outlive the timer
   ~StageTimer();
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;

@@ -30,7 +30,7 @@ public:
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  int threads() const { return static_cast<int>(workers_.size()) + 1; }
+  int threads() const { return static_cast<int>(workers_.size()) + 1; }  ///< the caller included
 
   /// Checked before every chunk; nullptr to check nothing. Set between two calls of parallelFor().
   void setCancellation(const CancellationToken* token) { cancellation_ = token; }

@@ -20,6 +20,7 @@ struct Evaluation
   double coverage = 0.0;    ///< part of the pixels with a finite result, 0..1
 };
 
+/// Border that the benchmark leaves out.
 constexpr int DEFAULT_EVALUATION_BORDER_PX = 15;
 
 /// @param result CV_32FC1; one that is smaller than the truth is taken as centred in it

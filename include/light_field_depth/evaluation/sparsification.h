@@ -18,14 +18,16 @@ struct SparsificationCurve
   /// The error of what is left when i / SPARSIFICATION_STEPS of the pixels are dropped, entry i, from nothing
   /// dropped on.
   std::vector<double> error;
-  std::vector<double> ideal;
+  std::vector<double> ideal;  ///< the same if the worst pixels are dropped first
   /// Area between the two curves over all pixel counts, divided by the error of all pixels (AUSE): 0 for the
   /// ideal confidence, and the larger the worse; 0 where there is no error at all.
   double ause = 0.0;
 };
 
+/// Steps in which pixels are dropped.
 constexpr int SPARSIFICATION_STEPS = 20;
 
+/// What a confidence is worth against truth.
 struct Sparsification
 {
   SparsificationCurve mse_100;     ///< mean square error x 100

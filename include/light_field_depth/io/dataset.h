@@ -57,6 +57,7 @@ enum class PlaceClaim
 /// "stated", "two numbers", "single number".
 std::string toString(PlaceClaim claim);
 
+/// How a folder is read.
 struct DatasetOptions
 {
   /// Numbered as in the dataset's files, the row first; the middle view when absent.

@@ -14,10 +14,11 @@ namespace light_field_depth
 /// lists as "3,4,5".
 using OptionValue = std::variant<bool, int, double, std::string>;
 
+/// A setting by the name that visitOptions() gives it.
 struct NamedOption
 {
-  std::string name;
-  OptionValue value;
+  std::string name;   ///< as for `--set`
+  OptionValue value;  ///< in effect
 };
 
 /// All settings of visitOptions(), in its order.

@@ -28,25 +28,25 @@ std::string toString(RangeSource source);
 /// What is to be known of a run afterwards.
 struct RunReport
 {
-  std::string input;
-  std::string format;  ///< Dataset::format
-  std::string flip;
-  PipelineOptions options;  ///< in effect
-  std::size_t views_found = 0;
-  std::size_t views_used = 0;
-  GridPosition reference;  ///< as View::grid counts
-  std::string reference_file;
-  cv::Size size;
-  std::optional<Calibration> calibration;
-  DisparityRange disparity_range;
-  RangeSource range_source = RangeSource::Found;
-  int threads = 0;
-  std::vector<StageTime> stage_times;
-  double decode_ms = 0.0;  ///< reading and decoding the views
-  double total_ms = 0.0;   ///< the method and the geometry, without decoding and writing
-  double write_ms = 0.0;   ///< writing the results
-  double peak_memory_mb = 0.0;
-  std::optional<double> photometric_error;             ///< PhotometricError::mean
+  std::string input;                              ///< folder that was read
+  std::string format;                             ///< Dataset::format
+  std::string flip;                               ///< Dataset::flip
+  PipelineOptions options;                        ///< in effect
+  std::size_t views_found = 0;                    ///< in the folder
+  std::size_t views_used = 0;                     ///< by the method
+  GridPosition reference;                         ///< as View::grid counts
+  std::string reference_file;                     ///< relative to the folder
+  cv::Size size;                                  ///< of each view, pixels
+  std::optional<Calibration> calibration;         ///< absent: no metres
+  DisparityRange disparity_range;                 ///< that was searched
+  RangeSource range_source = RangeSource::Found;  ///< where it came from
+  int threads = 0;                                ///< that worked
+  std::vector<StageTime> stage_times;             ///< PipelineResult::stage_times
+  double decode_ms = 0.0;                         ///< reading and decoding the views
+  double total_ms = 0.0;                    ///< the method and the geometry, without decoding and writing
+  double write_ms = 0.0;                    ///< writing the results
+  double peak_memory_mb = 0.0;              ///< peakMemoryMb()
+  std::optional<double> photometric_error;  ///< PhotometricError::mean
   std::optional<double> photometric_error_of_medians;  ///< PhotometricError::mean_of_medians
   std::vector<std::string> files;                      ///< written, relative to the output folder
 };

@@ -19,7 +19,7 @@ struct CalibrationParameters
   /// Metres from a column to the next and from a row to the next; 0: not given. Where only one is given it
   /// stands for both.
   double baseline_x_m = 0.0;
-  double baseline_y_m = 0.0;
+  double baseline_y_m = 0.0;  ///< see baseline_x_m
 
   /// The following are used only where no CameraInfo is used. Focal length in pixels; 0: not given.
   double focal_length_px = 0.0;
@@ -28,7 +28,7 @@ struct CalibrationParameters
   /// Change of the principal point from a view to the next, in pixels (see Calibration).
   double disparity_offset_px = 0.0;
 
-  bool hasBaseline() const { return baseline_x_m > 0.0 || baseline_y_m > 0.0; }
+  bool hasBaseline() const { return baseline_x_m > 0.0 || baseline_y_m > 0.0; }  ///< whether one is given
 };
 
 /// One whole sentence for each field that cannot be used.
@@ -41,9 +41,10 @@ struct ViewGeometry
   cv::Point2d offset_px;  ///< what steps * disparity_offset_px does not explain of its principal point
 };
 
+/// Calibration of a whole array: the pinhole model and where each view stands.
 struct ArrayCalibration
 {
-  Calibration calibration;
+  Calibration calibration;            ///< of the reference view
   std::vector<ViewGeometry> views;    ///< in the order of the grid positions that were given
   std::vector<std::string> warnings;  ///< whole sentences: what can be used but should be looked at
 };

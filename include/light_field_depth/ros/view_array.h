@@ -14,9 +14,9 @@ namespace light_field_depth
 /// Where a view comes from.
 struct ViewTopics
 {
-  GridPosition grid;
-  std::string image;
-  std::string camera_info;
+  GridPosition grid;        ///< its place
+  std::string image;        ///< topic
+  std::string camera_info;  ///< topic
 };
 
 /// The views of an array and their topics.

@@ -15,17 +15,17 @@ namespace light_field_depth
 /// One view on its topics.
 struct ViewMessages
 {
-  std::string image_topic;
-  std::string camera_info_topic;
-  sensor_msgs::ImagePtr image;
-  sensor_msgs::CameraInfoPtr camera_info;
+  std::string image_topic;                 ///< of `image`
+  std::string camera_info_topic;           ///< of `camera_info`
+  sensor_msgs::ImagePtr image;             ///< rectified
+  sensor_msgs::CameraInfoPtr camera_info;  ///< with the same header
 };
 
 /// Topics of a view, {row} and {column} standing for its place.
 struct TopicPatterns
 {
-  std::string image = "view_{row}_{column}/image_rect_color";
-  std::string camera_info = "view_{row}_{column}/camera_info";
+  std::string image = "view_{row}_{column}/image_rect_color";   ///< of the image
+  std::string camera_info = "view_{row}_{column}/camera_info";  ///< of its CameraInfo
 };
 
 /// A light field as a camera array would publish it: rectified images (mono8, bgr8, mono16, bgr16) and the
