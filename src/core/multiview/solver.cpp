@@ -107,7 +107,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
   }
   setPaths(paths_, context);
   aggregate(settings, context);
-  if (settings.detect_changes && !acceptFirstMap(settings, where, context))
+  if (settings.detect_changes && !acceptFirstMap(where, context))
   {
     return false;
   }
@@ -186,7 +186,7 @@ bool Solver::computeFirstCosts(const SolverSettings& settings, const CostSetting
   return true;
 }
 
-bool Solver::acceptFirstMap(const SolverSettings& settings, SearchIn where, RunContext& context)
+bool Solver::acceptFirstMap(SearchIn where, RunContext& context)
 {
   const StageTimer timer(context, "cost");
   if (where == SearchIn::AllLabels)

@@ -85,7 +85,7 @@ private:
   bool search(const SolverSettings& settings, SearchIn where, RunContext& context);
   bool computeFirstCosts(const SolverSettings& settings, const CostSettings& cost, SearchIn where,
                          RunContext& context);
-  bool acceptFirstMap(const SolverSettings& settings, SearchIn where, RunContext& context);
+  bool acceptFirstMap(SearchIn where, RunContext& context);
   void setPaths(const PathSettings& paths, RunContext& context);
   void aggregate(const SolverSettings& settings, RunContext& context);
   void fuseBackground(const SolverSettings& settings, RunContext& context);
