@@ -34,7 +34,7 @@ HWY_INLINE void sumResidualsAt(D f, const SystemRow& row, int x, hn::Vec<D> befo
   store(at(row.left), sums.left);
 }
 
-void sumResidualsLoop(const SystemRow& row, int width, bool add, const CellSums& sums)
+void sumResidualsSimd(const SystemRow& row, int width, bool add, const CellSums& sums)
 {
   const OneFloat one;
   const auto value = [&](int x) { return hn::Set(one, row.values[x]); };
@@ -51,7 +51,7 @@ void sumResidualsLoop(const SystemRow& row, int width, bool add, const CellSums&
             });
 }
 
-void joinCellsLoop(const CellRow& row)
+void joinCellsSimd(const CellRow& row)
 {
   const auto join = [&](auto f, int x, auto weight, auto residual, auto left, auto up)
   {
@@ -87,7 +87,7 @@ void joinCellsLoop(const CellRow& row)
   row.left[(row.width + 1) / 2] = 0.0F;
 }
 
-void spreadRowLoop(const float* coarse, float factor, int width, float* fine)
+void spreadRowSimd(const float* coarse, float factor, int width, float* fine)
 {
   forPixels(0, width / 2,
             [&](auto f, int x)
@@ -118,7 +118,7 @@ HWY_INLINE void sumGainsAt(D f, const SystemRow& row, int x, hn::Vec<D> before, 
   hn::StoreU(hn::Add(at(charge), charged), f, charge + x);
 }
 
-void sumGainsLoop(const SystemRow& row, int width, float* gain, float* charge)
+void sumGainsSimd(const SystemRow& row, int width, float* gain, float* charge)
 {
   const OneFloat one;
   sumGainsAt(one, row, 0, hn::Set(one, row.values[0]), gain, charge);
@@ -133,29 +133,29 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace light_field_depth::multiview
 {
-HWY_EXPORT(sumResidualsLoop);
-HWY_EXPORT(joinCellsLoop);
-HWY_EXPORT(spreadRowLoop);
-HWY_EXPORT(sumGainsLoop);
+HWY_EXPORT(sumResidualsSimd);
+HWY_EXPORT(joinCellsSimd);
+HWY_EXPORT(spreadRowSimd);
+HWY_EXPORT(sumGainsSimd);
 
 void sumResiduals(const SystemRow& row, int width, bool add, const CellSums& sums)
 {
-  HWY_DYNAMIC_DISPATCH(sumResidualsLoop)(row, width, add, sums);
+  HWY_DYNAMIC_DISPATCH(sumResidualsSimd)(row, width, add, sums);
 }
 
 void joinCells(const CellRow& row)
 {
-  HWY_DYNAMIC_DISPATCH(joinCellsLoop)(row);
+  HWY_DYNAMIC_DISPATCH(joinCellsSimd)(row);
 }
 
 void spreadRow(const float* coarse, float factor, int width, float* fine)
 {
-  HWY_DYNAMIC_DISPATCH(spreadRowLoop)(coarse, factor, width, fine);
+  HWY_DYNAMIC_DISPATCH(spreadRowSimd)(coarse, factor, width, fine);
 }
 
 void sumGains(const SystemRow& row, int width, float* gain, float* charge)
 {
-  HWY_DYNAMIC_DISPATCH(sumGainsLoop)(row, width, gain, charge);
+  HWY_DYNAMIC_DISPATCH(sumGainsSimd)(row, width, gain, charge);
 }
 
 }  // namespace light_field_depth::multiview
