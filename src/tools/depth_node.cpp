@@ -10,6 +10,8 @@
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "light_field_depth");
+  // Otherwise the last NodeHandle, which an exception destroys before it is caught, takes the console along.
+  ros::start();
   try
   {
     const light_field_depth::DepthNode node(ros::NodeHandle(), ros::NodeHandle("~"));

@@ -34,6 +34,8 @@ struct Arguments
   std::string input;
   std::string output;
   std::string method;
+  std::string preset;
+  std::string temporal;
   std::string views;
   std::vector<int> reference;
   std::vector<float> disparity_range;
@@ -55,19 +57,24 @@ void declare(CLI::App& app, Arguments& arguments)
   app.add_option("--input", arguments.input, "folder with the views of a light field")->required();
   app.add_option("--output", arguments.output, "folder for the results; created if need be")->required();
   app.add_option("--method", arguments.method, "method: " + lfd::methodNames().front() + " by default");
+  app.add_option(
+      "--preset", arguments.preset,
+      "of multiview: quality, balanced, realtime or fast; the same as --set multiview_preset=NAME");
+  app.add_option("--temporal", arguments.temporal,
+                 "of multiview, for video: true or false; the same as --set multiview_temporal=VALUE");
   app.add_option("--views", arguments.views,
                  "views to use: auto (the method's own choice), row, column, cross, star or all");
   app.add_option("--reference", arguments.reference,
                  "ROW,COL of the reference view, numbered as in the files")
       ->delimiter(',')
       ->expected(2);
-  app.add_option("--disparity-range", arguments.disparity_range,
+  app.add_option("--range,--disparity-range", arguments.disparity_range,
                  "MIN,MAX in pixels between adjacent views; found from the images by default")
       ->delimiter(',')
       ->expected(2);
   app.add_flag("--stated-range", arguments.stated_range,
                "search the range that the dataset's description states")
-      ->excludes("--disparity-range");
+      ->excludes("--range");
   app.add_option("--order", arguments.order,
                  "auto, row-major or column-major: which of a view's two numbers is the row")
       ->default_val("auto");
@@ -104,6 +111,22 @@ lfd::PipelineOptions makeOptions(const Arguments& arguments)
   {
     options.method = lfd::methodFromString(arguments.method);
   }
+  const auto set_of_multiview = [&](const char* name, const std::string& value)
+  {
+    if (value.empty())
+    {
+      return;
+    }
+    if (options.method != lfd::Method::Multiview)
+    {
+      throw lfd::InputError("--" + std::string(name) +
+                            " belongs to the method multiview, but the method is " +
+                            toString(options.method) + "; leave one of them out.");
+    }
+    lfd::setOption(options, "multiview_" + std::string(name), value);
+  };
+  set_of_multiview("preset", arguments.preset);
+  set_of_multiview("temporal", arguments.temporal);
   if (!arguments.views.empty())
   {
     options.views = lfd::viewSelectionFromString(arguments.views);

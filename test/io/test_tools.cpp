@@ -2,11 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -15,6 +12,7 @@
 
 #include "light_field_depth/io/files.h"
 #include "light_field_depth/io/pfm.h"
+#include "support/program.h"
 #include "support/synthetic_scene.h"
 #include "support/temporary_folder.h"
 
@@ -22,34 +20,15 @@ namespace light_field_depth
 {
 namespace
 {
+using testing::Outcome;
+using testing::quoted;
 using testing::TemporaryFolder;
-
-struct Outcome
-{
-  int exit_code = -1;
-  std::string output;
-  std::string errors;
-};
-
-std::string quoted(const std::string& text)
-{
-  return "'" + text + "'";
-}
-
-Outcome run(const std::string& command)
-{
-  const TemporaryFolder folder;
-  const std::string redirected = command + " >" + quoted((folder / "out").string()) + " 2>" +
-                                 quoted((folder / "err").string()) + " </dev/null";
-  const int status = std::system(redirected.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(folder / "out"), readFile(folder / "err")};
-}
 
 Outcome estimate(const std::filesystem::path& input, const std::filesystem::path& output,
                  const std::string& more = "")
 {
-  return run(quoted(ESTIMATE_PROGRAM) + " --input " + quoted(input.string()) + " --output " +
-             quoted(output.string()) + " " + more);
+  return testing::runProgram(quoted(ESTIMATE_PROGRAM) + " --input " + quoted(input.string()) + " --output " +
+                             quoted(output.string()) + " " + more);
 }
 
 nlohmann::json reportIn(const std::filesystem::path& folder)
@@ -170,6 +149,22 @@ TEST(EstimateTool, HeedsItsOptions)
   EXPECT_EQ(report["threads"], 2);
 }
 
+TEST(EstimateTool, KnowsTheNamesThatPeopleTypeAndTheLongerOnes)
+{
+  const SceneFolder scene;
+  const TemporaryFolder output;
+  ASSERT_EQ(
+      estimate(scene.path(), output / "short", "--preset fast --temporal true --range -2.5,3").exit_code, 0);
+  ASSERT_EQ(estimate(scene.path(), output / "long",
+                     "--set multiview_preset=fast --set multiview_temporal=true --disparity-range -2.5,3")
+                .exit_code,
+            0);
+  EXPECT_EQ(reportIn(output / "short")["options"], reportIn(output / "long")["options"]);
+  EXPECT_EQ(reportIn(output / "short")["options"]["multiview_preset"], "fast");
+  EXPECT_EQ(reportIn(output / "short")["options"]["multiview_temporal"], true);
+  EXPECT_EQ(readFile(output / "short" / "disparity.pfm"), readFile(output / "long" / "disparity.pfm"));
+}
+
 TEST(EstimateTool, GivesTheSameResultOnAnyNumberOfThreads)
 {
   const SceneFolder scene;
@@ -204,13 +199,17 @@ TEST(EstimateTool, SaysInOneSentenceWhatIsWrong)
   expect(estimate(scene.path(), target, "--reference a,b"), "--reference");
   expect(estimate(scene.path(), target, "--disparity-range 3,-3"), "disparity_range");
   expect(estimate(scene.path(), target, "--disparity-range nan,3"), "disparity_range");
+  expect(estimate(scene.path(), target, "--range 3,-3"), "disparity_range");
+  expect(estimate(scene.path(), target, "--preset hasty"), "hasty");
+  expect(estimate(scene.path(), target, "--temporal sometimes"), "sometimes");
+  expect(estimate(scene.path(), target, "--method paper2017 --preset fast"), "--preset belongs to");
   expect(estimate(scene.path(), target, "--set nonsense=1"), "nonsense");
   expect(estimate(scene.path(), target, "--set min_confidence=7"), "min_confidence");
   expect(estimate(scene.path(), target, "--set min_confidence"), "NAME=VALUE");
   expect(estimate(scene.path(), target, "--config " + quoted((output / "absent.yaml").string())),
          "absent.yaml");
   expect(estimate(scene.path(), target, "--nonsense"), "nonsense");
-  expect(run(quoted(ESTIMATE_PROGRAM) + " --input x"), "--output");
+  expect(testing::runProgram(quoted(ESTIMATE_PROGRAM) + " --input x"), "--output");
   expect(estimate(scene.path(), output.write("file", "")), "file");
   std::filesystem::resize_file(scene.folder() / "view_02_02.png", 700);
   expect(estimate(scene.path(), target), "view_02_02.png");
@@ -218,11 +217,11 @@ TEST(EstimateTool, SaysInOneSentenceWhatIsWrong)
 
 TEST(EstimateTool, ExplainsItself)
 {
-  const Outcome outcome = run(quoted(ESTIMATE_PROGRAM) + " --help");
+  const Outcome outcome = testing::runProgram(quoted(ESTIMATE_PROGRAM) + " --help");
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* const option :
-       {"--input", "--output", "--method", "--views", "--reference", "--disparity-range", "--flip", "--dense",
-        "--threads", "--save-intermediate", "--config", "--set"})
+       {"--input", "--output", "--method", "--preset", "--temporal", "--views", "--reference", "--range",
+        "--disparity-range", "--flip", "--dense", "--threads", "--save-intermediate", "--config", "--set"})
   {
     EXPECT_NE(outcome.output.find(option), std::string::npos) << option;
   }
@@ -247,7 +246,7 @@ protected:
 
   Outcome evaluate(const std::string& more = "") const
   {
-    return run(quoted(EVALUATE_PROGRAM) + arguments() + more);
+    return testing::runProgram(quoted(EVALUATE_PROGRAM) + arguments() + more);
   }
   std::string arguments() const
   {
@@ -263,7 +262,8 @@ protected:
 TEST_F(EvaluateTool, PrintsTheSameAsTheReferenceProgram)
 {
   const std::filesystem::path reference = "../shared/tools/score_disparity.py";
-  if (!std::filesystem::exists(reference) || run("/usr/bin/python3 -c 'import numpy'").exit_code != 0)
+  if (!std::filesystem::exists(reference) ||
+      testing::runProgram("/usr/bin/python3 -c 'import numpy'").exit_code != 0)
   {
     GTEST_SKIP() << reference << " or numpy is not here";
   }
@@ -271,12 +271,13 @@ TEST_F(EvaluateTool, PrintsTheSameAsTheReferenceProgram)
       quoted((folder_ / "result.pfm").string()) + " " + quoted((folder_ / "truth.pfm").string());
   for (const std::string border : {"", "--border 0", "--border 7"})
   {
-    const Outcome expected = run("/usr/bin/python3 " + reference.string() + " " + files + " " + border);
+    const Outcome expected =
+        testing::runProgram("/usr/bin/python3 " + reference.string() + " " + files + " " + border);
     ASSERT_EQ(expected.exit_code, 0) << expected.errors;
     EXPECT_EQ(evaluate(border).output, expected.output) << border;
   }
-  const auto expected =
-      nlohmann::json::parse(run("/usr/bin/python3 " + reference.string() + " --json " + files).output);
+  const auto expected = nlohmann::json::parse(
+      testing::runProgram("/usr/bin/python3 " + reference.string() + " --json " + files).output);
   const auto found = nlohmann::json::parse(evaluate("--json").output);
   ASSERT_EQ(found.size(), expected.size());
   for (const auto& [name, value] : expected.items())
@@ -324,7 +325,7 @@ TEST_F(EvaluateTool, SaysInOneSentenceWhatIsWrong)
   EXPECT_NE(lying.errors.find("result.pfm"), std::string::npos) << lying.errors;
   EXPECT_EQ(std::count(lying.errors.begin(), lying.errors.end(), '\n'), 1);
   EXPECT_EQ(evaluate("--border wide").exit_code, 1);
-  EXPECT_EQ(run(quoted(EVALUATE_PROGRAM)).exit_code, 1);
+  EXPECT_EQ(testing::runProgram(quoted(EVALUATE_PROGRAM)).exit_code, 1);
 }
 
 }  // namespace
