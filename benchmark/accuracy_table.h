@@ -28,7 +28,7 @@ private:
   const Settings& settings_;
   std::string what_;
   Table table_;
-  nlohmann::ordered_json json_;
+  nlohmann::json json_;
 };
 
 }  // namespace light_field_depth::benchmark

@@ -49,7 +49,7 @@ std::vector<Contestant> contestants(int threads)
 }
 
 void report(const std::string& capture, const LightField& light_field, const std::vector<Contestant>& methods,
-            const Settings& settings, Table& table, nlohmann::ordered_json& json)
+            const Settings& settings, Table& table, nlohmann::json& json)
 {
   std::vector<Answer> answers(methods.size());
   std::vector<std::function<void()>> tasks;
@@ -93,7 +93,7 @@ void measureCaptures(const Settings& settings)
       "occlusions as errors. Roughness: root mean square of the map about its Gaussian of 8 px, in the "
       "calmest "
       "30 % of the image.";
-  nlohmann::ordered_json json = describeMachine(settings);
+  nlohmann::json json = describeMachine(settings);
   const std::vector<Contestant> methods = contestants(settings.threads);
   for (const std::string& capture : settings.captures)
   {

@@ -47,12 +47,12 @@ Contestant makeContestant(const Variant& variant, std::shared_ptr<Pipeline> pipe
           }};
 }
 
-nlohmann::ordered_json accuracyJson(const Result& result)
+nlohmann::json accuracyJson(const Result& result)
 {
-  auto json = nlohmann::ordered_json::parse(toJson(result.evaluation));
+  auto json = nlohmann::json::parse(toJson(result.evaluation));
   if (result.sparsification)
   {
-    json["sparsification"] = nlohmann::ordered_json::parse(toJson(*result.sparsification));
+    json["sparsification"] = nlohmann::json::parse(toJson(*result.sparsification));
   }
   return json;
 }

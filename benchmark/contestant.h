@@ -56,7 +56,7 @@ struct Result
 };
 
 /// What both tables say about accuracy, in one object.
-nlohmann::ordered_json accuracyJson(const Result& result);
+nlohmann::json accuracyJson(const Result& result);
 
 /// Times all contestants in rounds, and scores their last answers.
 std::vector<Result> measure(const Scene& scene, const std::vector<Contestant>& contestants, int rounds);

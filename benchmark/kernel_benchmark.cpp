@@ -94,7 +94,7 @@ void benchmarkKernels(const Settings& settings)
 
   Table table;
   table.header = {"kernel", "item", "ns per item", "without vectors", "ratio", "GB/s, one thread"};
-  nlohmann::ordered_json json = describeMachine(settings);
+  nlohmann::json json = describeMachine(settings);
   json["limits"] = toJson(limits);
   for (const Kernel& kernel : all)
   {
@@ -103,7 +103,7 @@ void benchmarkKernels(const Settings& settings)
     table.rows.push_back({kernel.name, kernel.item, fixed(vectors / kernel.items, 3),
                           fixed(plain / kernel.items, 3), fixed(plain / vectors, 1),
                           fixed(kernel.bytes / vectors, 1)});
-    nlohmann::ordered_json row;
+    nlohmann::json row;
     row["kernel"] = kernel.name;
     row["item"] = kernel.item;
     row["items"] = kernel.items;

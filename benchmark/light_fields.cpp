@@ -58,7 +58,7 @@ double speedup(const Result& yardstick, const Result& result)
   return median(std::move(ratios));
 }
 
-void report(const std::vector<Result>& results, Table& table, nlohmann::ordered_json& rows)
+void report(const std::vector<Result>& results, Table& table, nlohmann::json& rows)
 {
   const auto yardstick = std::find_if(results.begin(), results.end(),
                                       [](const Result& result) { return result.name == YARDSTICK; });
@@ -70,7 +70,7 @@ void report(const std::vector<Result>& results, Table& table, nlohmann::ordered_
     table.rows.push_back({result.scene, result.name, toText(result.timing), fixed(faster, 1),
                           fixed(accuracy.mse_100, 2), fixed(mse_ratio, 2), fixed(accuracy.badpix_007, 2),
                           fixed(accuracy.badpix_003, 1), fixed(accuracy.coverage, 2)});
-    nlohmann::ordered_json row;
+    nlohmann::json row;
     row["scene"] = result.scene;
     row["method"] = result.name;
     row["time"] = toJson(result.timing);
@@ -124,7 +124,7 @@ void compareMethods(const Settings& settings)
                        "AUSE of MSE",
                        "BadPix 0.07 % without a tenth (ideal)",
                        "AUSE of BadPix"};
-  nlohmann::ordered_json json = describeMachine(settings);
+  nlohmann::json json = describeMachine(settings);
   std::vector<Contestant> own;
   for (const Variant& variant : ownMethods())
   {

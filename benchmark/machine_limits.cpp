@@ -140,9 +140,9 @@ std::string toText(const MachineLimits& limits)
          fixed(limits.word_gops, 0) + " on 16-bit words, " + fixed(limits.float_gops, 0) + " on floats.";
 }
 
-nlohmann::ordered_json toJson(const MachineLimits& limits)
+nlohmann::json toJson(const MachineLimits& limits)
 {
-  nlohmann::ordered_json json;
+  nlohmann::json json;
   json["vector_instructions"] = limits.vector_instructions;
   json["memory_copy_gb_s"] = limits.memory_copy_gb_s;
   json["memory_triad_gb_s"] = limits.memory_triad_gb_s;

@@ -24,7 +24,7 @@ MachineLimits measureMachineLimits(int threads);
 
 /// "memory 20 GB/s (copy), ..." in one sentence.
 std::string toText(const MachineLimits& limits);
-nlohmann::ordered_json toJson(const MachineLimits& limits);
+nlohmann::json toJson(const MachineLimits& limits);
 
 }  // namespace light_field_depth::benchmark
 

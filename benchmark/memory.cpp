@@ -77,7 +77,7 @@ void measureMemory(const Settings& settings)
   Table table;
   table.header = {"preset", "pixels of a side", "labels", "light field, MB", "peak of the process, MB"};
   table.note = "17 views on a cross, " + std::to_string(settings.threads) + " threads, MB of 10^6 bytes.";
-  nlohmann::ordered_json json = describeMachine(settings);
+  nlohmann::json json = describeMachine(settings);
   for (const Load& load : loads())
   {
     const LightField light_field = LayeredScene({load.side_px, load.side_px}).views(crossOf(9));

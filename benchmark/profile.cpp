@@ -129,7 +129,7 @@ std::string rateText(double rate, double limit)
 }
 
 void report(const StageProfile& profile, double alone_ms, double total_ms, const StageWork& work,
-            const MachineLimits& limits, Table& table, nlohmann::ordered_json& json)
+            const MachineLimits& limits, Table& table, nlohmann::json& json)
 {
   const double milliseconds = profile.timing.median();
   const double seconds = milliseconds * SECONDS_PER_MS;
@@ -141,7 +141,7 @@ void report(const StageProfile& profile, double alone_ms, double total_ms, const
                         rateText(gb_s, limits.memory_triad_gb_s),
                         work.operations > 0.0 ? fixed(work.operations * PER_GIGA, 2) : "",
                         rateText(gops, peakOf(work.lane, limits))});
-  nlohmann::ordered_json row;
+  nlohmann::json row;
   row["stage"] = profile.stage;
   row["time"] = toJson(profile.timing);
   row["one_thread_median_ms"] = alone_ms;
@@ -169,7 +169,7 @@ void profileFrame(const Settings& settings)
                   "of the frame",    "x as fast as one thread",
                   "MB moved",        "GB/s (of memory's)",
                   "10^9 operations", "10^9 a second (of the peak)"};
-  nlohmann::ordered_json json = describeMachine(settings);
+  nlohmann::json json = describeMachine(settings);
   json["scene"] = scene.name;
   json["limits"] = toJson(limits);
   json["total"] = toJson(profile.total);

@@ -67,9 +67,9 @@ std::string fixed(double value, int decimals)
   return text.data();
 }
 
-nlohmann::ordered_json describeMachine(const Settings& settings)
+nlohmann::json describeMachine(const Settings& settings)
 {
-  nlohmann::ordered_json machine;
+  nlohmann::json machine;
   machine["processor"] = processorName();
   machine["processors"] = std::thread::hardware_concurrency();
   machine["compiler"] = __VERSION__;
@@ -90,7 +90,7 @@ void publishTable(const Settings& settings, const std::string& name, const Table
 }
 
 void publish(const Settings& settings, const std::string& name, const Table& table,
-             const nlohmann::ordered_json& report)
+             const nlohmann::json& report)
 {
   publishTable(settings, name, table);
   if (!settings.results.empty())

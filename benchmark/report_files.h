@@ -33,7 +33,7 @@ std::string toMarkdown(const Table& table);
 std::string fixed(double value, int decimals);
 
 /// The machine and the settings, which every report begins with.
-nlohmann::ordered_json describeMachine(const Settings& settings);
+nlohmann::json describeMachine(const Settings& settings);
 
 /// Prints a table, and writes it as NAME.md into the folder of results, if there is one.
 /// @throw InputError that names the file which cannot be written
@@ -43,7 +43,7 @@ void publishTable(const Settings& settings, const std::string& name, const Table
 /// is one.
 /// @throw InputError that names the file which cannot be written
 void publish(const Settings& settings, const std::string& name, const Table& table,
-             const nlohmann::ordered_json& report);
+             const nlohmann::json& report);
 
 }  // namespace light_field_depth::benchmark
 

@@ -131,9 +131,9 @@ Chart measure(const Series& series, int rounds)
   return chart;
 }
 
-void report(const Series& series, const Chart& chart, Table& table, nlohmann::ordered_json& json)
+void report(const Series& series, const Chart& chart, Table& table, nlohmann::json& json)
 {
-  nlohmann::ordered_json entry;
+  nlohmann::json entry;
   entry["series"] = series.name;
   entry["exponent"] = chart.fit.exponent;
   std::string times;
@@ -167,7 +167,7 @@ void measureGrowth(const Settings& settings)
       "512 x 512 pixels, 17 views on a cross, and the range given unless the row says otherwise. Of more "
       "than "
       "eight views in one of eight directions the method uses eight.";
-  nlohmann::ordered_json json = describeMachine(settings);
+  nlohmann::json json = describeMachine(settings);
   std::vector<Chart> charts;
   const std::vector<std::function<Series()>> all = {
       [&] { return overPixels(settings, true); }, [&] { return overPixels(settings, false); },

@@ -71,9 +71,9 @@ std::string toText(const Timing& timing)
   return text.data();
 }
 
-nlohmann::ordered_json toJson(const Timing& timing)
+nlohmann::json toJson(const Timing& timing)
 {
-  nlohmann::ordered_json json;
+  nlohmann::json json;
   json["median_ms"] = rounded(timing.median());
   json["min_ms"] = rounded(timing.fastest());
   json["max_ms"] = rounded(timing.slowest());

@@ -32,7 +32,7 @@ std::vector<Timing> timeInRounds(const std::vector<std::function<void()>>& tasks
 /// "183 (153..306)"; with decimals below ten.
 std::string toText(const Timing& timing);
 /// {"median_ms": 183, "min_ms": ..., "max_ms": ..., "all_ms": [...]}
-nlohmann::ordered_json toJson(const Timing& timing);
+nlohmann::json toJson(const Timing& timing);
 
 /// Time that an action takes.
 template <class Action>

@@ -106,14 +106,14 @@ void measureVideo(const Settings& settings)
                   "MSE x 100 / BadPix 0.07 %, last " + std::to_string(SCORED_FRAMES) + " of " +
                       std::to_string(FRAMES) + " frames",
                   "first frame after a cut", "second"};
-  nlohmann::ordered_json json = describeMachine(settings);
+  nlohmann::json json = describeMachine(settings);
   for (const Run& run : runs)
   {
     table.rows.push_back({run.contestant.name, toText(run.steadyTiming()),
                           accuracyText(run.evaluations, FRAMES - SCORED_FRAMES, FRAMES),
                           accuracyText(run.evaluations, FRAMES, FRAMES + 1),
                           accuracyText(run.evaluations, FRAMES + 1, FRAMES + 2)});
-    nlohmann::ordered_json row;
+    nlohmann::json row;
     row["method"] = run.contestant.name;
     row["time"] = toJson(run.timing);
     for (const Evaluation& evaluation : run.evaluations)

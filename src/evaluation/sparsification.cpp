@@ -153,7 +153,7 @@ std::string toText(const Sparsification& sparsification)
 
 std::string toJson(const Sparsification& sparsification)
 {
-  nlohmann::ordered_json json;
+  nlohmann::json json;
   for (const auto& [name, value] : namedFigures(sparsification))
   {
     json[name] = value;

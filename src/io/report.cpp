@@ -12,7 +12,7 @@ namespace light_field_depth
 {
 namespace
 {
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 constexpr double BYTES_PER_KIB = 1024.0;
 constexpr double BYTES_PER_MB = 1e6;

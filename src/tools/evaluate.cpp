@@ -54,8 +54,8 @@ void evaluate(const Arguments& arguments)
         lfd::sparsify(result, lfd::readPfm(arguments.confidence), truth, mask, arguments.border_px);
     if (arguments.json)
     {
-      auto figures = nlohmann::ordered_json::parse(line);
-      figures["sparsification"] = nlohmann::ordered_json::parse(toJson(sparsification));
+      auto figures = nlohmann::json::parse(line);
+      figures["sparsification"] = nlohmann::json::parse(toJson(sparsification));
       line = figures.dump();
     }
     else

@@ -91,7 +91,7 @@ Heard listen(const ReportOptions& options)
   return heard;
 }
 
-nlohmann::ordered_json figuresOf(const Heard& heard, const ReportOptions& options)
+nlohmann::json figuresOf(const Heard& heard, const ReportOptions& options)
 {
   const LightFieldDepthStats& last = *heard.last;
   const auto frames = static_cast<double>(heard.frames);
@@ -113,7 +113,7 @@ nlohmann::ordered_json figuresOf(const Heard& heard, const ReportOptions& option
 }
 
 /// The columns are those of scripts/bench_node.sh.
-std::string tableRow(const nlohmann::ordered_json& figures, const Heard& heard)
+std::string tableRow(const nlohmann::json& figures, const Heard& heard)
 {
   std::ostringstream text;
   const auto column = [&](const char* name, int digits)
@@ -134,7 +134,7 @@ std::string tableRow(const nlohmann::ordered_json& figures, const Heard& heard)
 void report(const ReportOptions& options)
 {
   const Heard heard = listen(options);
-  const nlohmann::ordered_json figures = figuresOf(heard, options);
+  const nlohmann::json figures = figuresOf(heard, options);
   std::cout << tableRow(figures, heard) << std::endl;
   if (!options.output.empty())
   {
