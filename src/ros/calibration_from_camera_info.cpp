@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <Eigen/Core>
+
 #include "light_field_depth/core/error.h"
 
 namespace light_field_depth
@@ -26,6 +28,9 @@ constexpr double MAX_BASELINE_DIFFERENCE = 1e-2;
 constexpr double SAME_PLACE_M = 1e-9;
 /// A view that strays from its place in the grid by more than this share of a step deserves a warning.
 constexpr double MAX_GRID_DEVIATION = 0.5;
+
+/// Two numbers for each view.
+using Pairs = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
 std::string number(double value)
 {
@@ -219,17 +224,21 @@ double adjacentBaseline(const std::vector<GridPosition>& grid, const std::vector
                    " views share a row or a column; name views that stand side by side.");
 }
 
+Pairs pairsOf(const std::vector<cv::Point2d>& points)
+{
+  Pairs pairs(static_cast<Eigen::Index>(points.size()), 2);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    pairs.row(static_cast<Eigen::Index>(i)) << points[i].x, points[i].y;
+  }
+  return pairs;
+}
+
 /// Change of the principal point for one step: the least squares fit of shift = steps * d_inf.
 double fitDisparityOffset(const std::vector<cv::Point2d>& steps, const std::vector<cv::Point2d>& shifts)
 {
-  double numerator = 0.0;
-  double denominator = 0.0;
-  for (std::size_t i = 0; i < steps.size(); ++i)
-  {
-    numerator += steps[i].dot(shifts[i]);
-    denominator += steps[i].dot(steps[i]);
-  }
-  return numerator / denominator;
+  const Pairs along = pairsOf(steps);
+  return along.cwiseProduct(pairsOf(shifts)).sum() / along.squaredNorm();
 }
 
 void warnOfOtherBaseline(double given_m, double found_m, const char* parameter,
