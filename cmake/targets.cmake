@@ -1,4 +1,5 @@
-# One way to declare a library, a tool and a test.
+# One way to declare a library, a tool and a test. LFD_LIB_DESTINATION, LFD_PROGRAM_DESTINATION and LFD_CMAKE_DESTINATION
+# say where they are installed, LFD_PROGRAM_OUTPUT where programs are built.
 
 set(LFD_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<BOOL:${LIGHT_FIELD_DEPTH_WERROR}>:-Werror>)
@@ -10,19 +11,29 @@ function(lfd_configure target)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(${target} PRIVATE ${LFD_WARNINGS})
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  # Installed libraries and programs find each other.
+  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
 endfunction()
 
-# lfd_library(NAME SOURCES ... LINK ... SYSTEM_INCLUDES ...)
+# lfd_library(NAME [EXPORT_NAME ...] SOURCES ... LINK ... PRIVATE_LINK ... SYSTEM_INCLUDES ...)
+# With EXPORT_NAME others may link it as light_field_depth::EXPORT_NAME.
 function(lfd_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;SYSTEM_INCLUDES" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXPORT_NAME" "SOURCES;LINK;PRIVATE_LINK;SYSTEM_INCLUDES" ${ARGN})
   add_library(${name} SHARED ${ARG_SOURCES})
   lfd_configure(${name})
-  target_include_directories(${name} SYSTEM PUBLIC ${ARG_SYSTEM_INCLUDES})
-  target_link_libraries(${name} PUBLIC ${ARG_LINK})
-  install(TARGETS ${name}
-    ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-    LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-    RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+  target_include_directories(${name} SYSTEM PUBLIC "$<BUILD_INTERFACE:${ARG_SYSTEM_INCLUDES}>")
+  target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  set(export)
+  if(ARG_EXPORT_NAME)
+    add_library(${PROJECT_NAME}::${ARG_EXPORT_NAME} ALIAS ${name})
+    set_target_properties(${name} PROPERTIES EXPORT_NAME ${ARG_EXPORT_NAME})
+    set(export EXPORT ${PROJECT_NAME}Targets)
+  endif()
+  install(TARGETS ${name} ${export}
+    ARCHIVE DESTINATION ${LFD_LIB_DESTINATION}
+    LIBRARY DESTINATION ${LFD_LIB_DESTINATION}
+    RUNTIME DESTINATION bin)
 endfunction()
 
 # lfd_executable(NAME SOURCES ... LINK ...): a program that rosrun finds.
@@ -31,9 +42,8 @@ function(lfd_executable name)
   add_executable(${name} ${ARG_SOURCES})
   lfd_configure(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
-  set_target_properties(${name} PROPERTIES
-    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
-  install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${LFD_PROGRAM_OUTPUT})
+  install(TARGETS ${name} RUNTIME DESTINATION ${LFD_PROGRAM_DESTINATION})
 endfunction()
 
 # lfd_gtest(NAME SOURCES ... LINK ...): a unit test without a ROS master.
