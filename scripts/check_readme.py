@@ -6,6 +6,7 @@ usage: check_readme.py [--markers]
 Above each block stands what is to be done with it:
   <!-- check: run -->                 its commands end by themselves, and succeed
   <!-- check: until TOPIC -->         its last command goes on; a message has to come on TOPIC
+  <!-- check: beside COMMAND -->      as 'run', while COMMAND goes on
   <!-- check: not run, REASON -->     it cannot run here, or something else runs it
 With --markers the marks alone are looked at. The package has to be built. A virtual display, a ROS master's address and
 the folders of ROS are the check's own.
@@ -21,7 +22,7 @@ import tempfile
 import time
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
-MARK = re.compile(r'<!-- check: (run|until (?P<topic>/\S+)|not run, (?P<reason>.+)) -->')
+MARK = re.compile(r'<!-- check: (run|until (?P<topic>/\S+)|beside (?P<beside>.+)|not run, (?P<reason>.+)) -->')
 # Of a block that goes on: RViz on a slow machine takes most of it. And of one that ends.
 PATIENCE_S = 180
 LONGEST_RUN_S = 600
@@ -109,6 +110,19 @@ class Machine:
         finally:
             end(process)
 
+    def run_beside(self, block, command, log):
+        other = self.start(f'. devel/setup.bash; exec {command}', log)
+        # Its node answers when it has come up.
+        wait = self.start('set +e; . devel/setup.bash; until rosservice list 2>/dev/null | grep -q /reset; do sleep 1; done', log)
+        try:
+            wait.wait(PATIENCE_S)
+            return self.run(block, log)
+        except subprocess.TimeoutExpired:
+            return f'{command} did not come up within {PATIENCE_S} s'
+        finally:
+            end(wait)
+            end(other)
+
     def run_until(self, block, topic, log):
         process = self.start(block.commands, log)
         # Names of messages and packages come from the same setup file as the block's own.
@@ -137,7 +151,12 @@ def check(machine, block):
     log_path = machine.scratch / f'block_{block.line}.log'
     with open(log_path, 'w') as log:
         topic = block.mark['topic']
-        problem = machine.run_until(block, topic, log) if topic else machine.run(block, log)
+        if topic:
+            problem = machine.run_until(block, topic, log)
+        elif block.mark['beside']:
+            problem = machine.run_beside(block, block.mark['beside'], log)
+        else:
+            problem = machine.run(block, log)
     if problem:
         print(''.join(log_path.open().readlines()[-30:]))
         print(f'README.md:{block.line}: {problem}')
