@@ -11,6 +11,7 @@ endif()
 option(LIGHT_FIELD_DEPTH_FETCH "Fetch Highway, CLI11 and nlohmann-json even where the system has them" OFF)
 
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs video OPTIONAL_COMPONENTS calib3d)
+find_package(Eigen3 REQUIRED)
 find_package(PCL REQUIRED COMPONENTS common io)
 find_package(yaml-cpp REQUIRED)
 find_package(Threads REQUIRED)
@@ -57,12 +58,17 @@ foreach(option HWY_ENABLE_TESTS HWY_ENABLE_EXAMPLES HWY_ENABLE_CONTRIB JSON_Buil
 endforeach()
 # Part of our shared library instead of a library of its own.
 set(HWY_FORCE_STATIC_LIBS ON CACHE INTERNAL "")
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 lfd_find_or_fetch(hwy 1.0 hwy::hwy hwy
   NAME highway
   URL https://github.com/google/highway/archive/refs/tags/1.0.7.tar.gz
   SHA256 5434488108186c170a5e2fca5e3c9b6ef59a1caa4d520b008a9b8be6b8abe6c5)
+get_target_property(LFD_HWY_IMPORTED hwy::hwy IMPORTED)
+if(LFD_HWY_IMPORTED)
+  set_target_properties(hwy::hwy PROPERTIES INTERFACE_COMPILE_DEFINITIONS "")  # HWY_SHARED_DEFINE is for Windows
+else()
+  set_target_properties(hwy PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endif()
 lfd_find_or_fetch(CLI11 2.0 CLI11::CLI11 CLI11
   NAME cli11
   URL https://github.com/CLIUtils/CLI11/archive/refs/tags/v2.4.1.tar.gz
