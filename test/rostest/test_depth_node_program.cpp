@@ -42,7 +42,6 @@ TEST(DepthNodeProgram, SaysOnTheConsoleWhyItEnds)
   expectRefusal("no_calibration", "_use_camera_info:=false", "Without CameraInfo, focal_length");
   expectRefusal("array", "_array:=3", "'array' is not");
   expectRefusal("queue", "_queue_size:=0", "'/queue/queue_size' is 0; give a value from 1");
-  expectRefusal("preset", "_multiview_preset:=hasty", "hasty");
 }
 
 TEST(DepthNodeProgram, SaysUnderRoslaunchWhyItEnds)
