@@ -14,6 +14,7 @@
 #include "core/multiview/sequence.h"
 #include "core/multiview/solver.h"
 #include "core/preprocess/even_exposure.h"
+#include "core/preprocess/view_noise.h"
 #include "light_field_depth/core/disparity_range.h"
 #include "light_field_depth/core/exposure.h"
 #include "light_field_depth/core/noise_estimate.h"
@@ -88,6 +89,20 @@ LightField inSolverUnit(LightField light_field, double unit)
     view.steps *= 1.0 / unit;
   }
   return light_field;
+}
+
+/// What one image tells, unless differences of views tell much more: noise that demosaicing, denoising or
+/// compression has correlated from pixel to pixel looks like texture in one image. The search and the
+/// windows average less of it than of white noise of the same strength, so it counts for more.
+float measuredNoise(const LightField& light_field, const DisparityRange& range, ThreadPool& pool)
+{
+  constexpr float least_sigma = 0.85F;  // below it views count as clean
+  constexpr float least_ratio = 1.5F;   // the two measures agree to a fifth on white noise
+  constexpr float correlated = 1.3F;
+  const float of_image = estimateNoise(light_field.reference().image);
+  const float of_views = multiview::estimateNoiseOfViews(light_field, range, pool);
+  const bool is_correlated = of_views > least_sigma && of_views > least_ratio * of_image;
+  return is_correlated ? std::max(of_image, correlated * of_views) : of_image;
 }
 
 /// @param unit from solverUnit()
@@ -229,7 +244,7 @@ LightField MultiviewEstimator::measure(const LightField& views, const EstimateRe
                                               context.pool, range_options);
   }
   const StageTimer timer(context, "noise");
-  measures.noise_sigma = estimateNoise(chosen.reference().image);
+  measures.noise_sigma = measuredNoise(chosen, measures.range, context.pool);
   return chosen;
 }
 
@@ -266,7 +281,7 @@ LightField MultiviewEstimator::measureQuickly(const LightField& views, const Est
                                              : findDisparityRange(quarter, context.pool, range_options);
   }
   const StageTimer timer(context, "noise");
-  measures.noise_sigma = estimateNoise(chosen.reference().image);
+  measures.noise_sigma = measuredNoise(chosen, measures.range, context.pool);
   return chosen;
 }
 
@@ -311,7 +326,7 @@ bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& 
   }
   {
     const StageTimer timer(context, "noise");
-    here.noise_sigma = estimateNoise(chosen.reference().image);
+    here.noise_sigma = measuredNoise(chosen, here.range, context.pool);
   }
   const double unit = solverUnit(chosen);
   if (!memory_->solver.follow(inSolverUnit(chosen, unit), solverSettings(options_, here, unit), context))

@@ -229,26 +229,37 @@ void Solver::aggregate(const SolverSettings& settings, RunContext& context)
 void Solver::refine(const SolverSettings& settings, RunContext& context)
 {
   {
+    const StageTimer timer(context, "noise");
+    measureViewNoise(views_, disparity_, context.pool, noise_);
+  }
+  SmoothingSettings smoothing = settings.smoothing;
+  smoothing.strength *= 1.0F + settings.strength_per_variance * noise_.value_variance;
+  if (settings.refinements > 0)
+  {
     const StageTimer timer(context, "smooth");
-    smoother_.setGuide(guide(), settings.smoothing, context.pool);
+    smoother_.setGuide(guide(), smoothing, context.pool);
   }
   for (int i = 0; i < settings.refinements; ++i)
   {
-    {
-      const StageTimer timer(context, "linearize");
-      linearizer_.run(views_, disparity_, settings.linearization, context.pool, linearization_);
-    }
+    linearize(settings, context);
     const StageTimer timer(context, "smooth");
-    smoother_.run(linearization_.weight, linearization_.target, settings.smoothing, context.pool, disparity_);
+    smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity_);
   }
+}
+
+void Solver::linearize(const SolverSettings& settings, RunContext& context)
+{
+  const StageTimer timer(context, "linearize");
+  linearizer_.run(views_, disparity_, noise_.local_slope_variance, settings.linearization, context.pool,
+                  linearization_);
+  discount_.apply(settings.noise_discount, context.pool, linearization_);
 }
 
 void Solver::judge(const SolverSettings& settings, RunContext& context)
 {
   if (settings.refinements == 0)
   {
-    const StageTimer timer(context, "linearize");
-    linearizer_.run(views_, disparity_, settings.linearization, context.pool, linearization_);
+    linearize(settings, context);
   }
   context.save("multiview_curvature", linearization_.weight);
   context.save("multiview_residual", linearization_.residual);

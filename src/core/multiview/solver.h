@@ -10,6 +10,7 @@
 #include "core/light_field/view_set.h"
 #include "core/multiview/maps/boundary_pixels.h"
 #include "core/multiview/refine/edge_aware_smoothing.h"
+#include "core/multiview/refine/noise_discount.h"
 #include "core/multiview/refine/refinement.h"
 #include "core/multiview/search/background_fusion.h"
 #include "core/multiview/search/change_detection.h"
@@ -20,6 +21,7 @@
 #include "core/multiview/search/path_aggregation.h"
 #include "core/multiview/search/thin_structures.h"
 #include "core/multiview/search/visibility.h"
+#include "core/preprocess/view_noise.h"
 #include "light_field_depth/core/light_field.h"
 #include "light_field_depth/core/run_context.h"
 
@@ -46,7 +48,10 @@ struct SolverSettings
   BoundaryPixelSettings boundary_pixels;
   int refinements = 2;
   LinearizationSettings linearization;
+  NoiseDiscountSettings noise_discount;
   SmoothingSettings smoothing;
+  /// Links strengthen by this part for each squared grey level of noise that the views are left with.
+  float strength_per_variance = 0.75F;
   bool detect_changes = false;  ///< so that the next frame may follow
 };
 
@@ -90,6 +95,7 @@ private:
   void aggregate(const SolverSettings& settings, RunContext& context);
   void fuseBackground(const SolverSettings& settings, RunContext& context);
   void refine(const SolverSettings& settings, RunContext& context);
+  void linearize(const SolverSettings& settings, RunContext& context);
   void judge(const SolverSettings& settings, RunContext& context);
   const PlanarImage& guide() const
   {
@@ -111,6 +117,8 @@ private:
   VisibleSurfaces surfaces_;
   Linearizer linearizer_;
   Linearization linearization_;
+  ViewNoise noise_;
+  NoiseDiscount discount_;
   EdgeAwareSmoother smoother_;
   cv::Mat label_;
   cv::Mat scratch_;

@@ -201,6 +201,8 @@ void addPairSimd(const PairRow& pair, const SolutionRow& solution)
     hn::StoreU(hn::Add(hn::LoadU(f, solution.curvature + x), curvature), f, solution.curvature + x);
     hn::StoreU(hn::Add(hn::LoadU(f, solution.gradient + x), gradient), f, solution.gradient + x);
     hn::StoreU(hn::Add(hn::LoadU(f, solution.disagreement + x), own), f, solution.disagreement + x);
+    const auto positions = hn::LoadU(f, moments + MOMENT_KK * stride);
+    hn::StoreU(hn::Add(hn::LoadU(f, solution.positions + x), positions), f, solution.positions + x);
   }
 }
 
@@ -210,7 +212,6 @@ void solveRowSimd(const FinalRow& row, const SolutionRow& solution)
   const auto tiny = hn::Set(f, 1e-6F);
   const auto limit = hn::Set(f, row.max_step_px);
   const auto window = hn::Set(f, row.window);
-  const auto max_weight = hn::Set(f, row.max_weight);
   for (int x = 0; x < row.width; x += static_cast<int>(hn::Lanes(f)))
   {
     const auto curvature = hn::LoadU(f, solution.curvature + x);
@@ -221,7 +222,9 @@ void solveRowSimd(const FinalRow& row, const SolutionRow& solution)
     const auto step = hn::Min(hn::Max(minimum, hn::Neg(limit)), limit);
     hn::StoreU(hn::Sqrt(hn::Max(spread, hn::Zero(f))), f, solution.disagreement + x);
     hn::StoreU(hn::Add(hn::LoadU(f, row.disparity + x), step), f, solution.gradient + x);
-    hn::StoreU(hn::Min(hn::Div(curvature, window), max_weight), f, solution.curvature + x);
+    const auto noise = hn::Mul(hn::LoadU(f, solution.positions + x), hn::LoadU(f, row.slope_noise + x));
+    hn::StoreU(hn::Div(noise, window), f, solution.positions + x);
+    hn::StoreU(hn::Div(curvature, window), f, solution.curvature + x);
   }
 }
 

@@ -61,6 +61,7 @@ struct SolutionRow
   float* curvature = nullptr;
   float* gradient = nullptr;
   float* disagreement = nullptr;
+  float* positions = nullptr;  ///< sum of MOMENT_KK
 };
 
 /// How the sums over the pairs become the result.
@@ -69,7 +70,8 @@ struct FinalRow
   const float* disparity = nullptr;  ///< [stride], about which the views were linearised
   float window = 25.0F;              ///< pixels of the window
   float max_step_px = 0.15F;
-  float max_weight = 400.0F;
+  /// [stride], what noise adds to the curvature, in parts of the sum of MOMENT_KK.
+  const float* slope_noise = nullptr;
   int width = 0;
 };
 
@@ -91,8 +93,8 @@ void differentiate(const DerivativeRow& row);
 void addRay(const RayRow& ray, float* pair);
 /// Eliminates the slope of the brightness and adds the pair to the solution.
 void addPair(const PairRow& pair, const SolutionRow& solution);
-/// Turns the sums over the pairs into the weight (curvature a pixel of the window), the disparity of the
-/// minimum, and how far apart the pairs' own minima lie, px, in place.
+/// Turns the sums over the pairs into the curvature a pixel of the window, the disparity of the minimum, how
+/// far apart the pairs' own minima lie, px, and what noise adds to the curvature a pixel, in place.
 void solveRow(const FinalRow& row, const SolutionRow& solution);
 
 }  // namespace light_field_depth::multiview

@@ -20,6 +20,8 @@ constexpr int RESIDUAL_RADIUS = 2;
 /// Added to residuals (three channels, averaged over views and pixels) before arms are compared.
 constexpr float RESIDUAL_FLOOR = 3.0F;
 constexpr std::size_t GRADIENT_PAD = 2;
+/// How much a view adds to the refocused mean, which it takes part in with a weight, against the reference.
+constexpr float SHARE_OF_MEAN = 0.7F;
 
 std::size_t roundUp(int value, int multiple)
 {
@@ -39,9 +41,10 @@ struct Linearizer::Scratch
   std::vector<float> weights;         // of one tile
   std::vector<float> disparity;       // of one row, padded
   std::vector<const float*> row_pointers;
-  std::vector<float> sums;       // over the rows of a window
-  std::vector<float> columns;    // rows of numbers about one row of the image
-  std::vector<float> solutions;  // of one row
+  std::vector<float> sums;         // over the rows of a window
+  std::vector<float> columns;      // rows of numbers about one row of the image
+  std::vector<float> solutions;    // of one row
+  std::vector<float> slope_noise;  // of one row
 };
 
 Linearizer::Linearizer() = default;
@@ -51,10 +54,11 @@ Linearizer::~Linearizer() = default;
 class Linearizer::Band
 {
 public:
-  Band(const ViewSet& views, const ViewRays& rays, const cv::Mat& disparity,
+  Band(const ViewSet& views, const ViewRays& rays, const cv::Mat& disparity, const cv::Mat& slope_variance,
        const LinearizationSettings& settings, Scratch& scratch, Linearization& result)
-      : views_(views), rays_(rays), disparity_(disparity), settings_(settings), scratch_(scratch),
-        result_(result), width_(views.width()), height_(views.height()), arms_(views.arms.size()),
+      : views_(views), rays_(rays), disparity_(disparity), slope_variance_(slope_variance),
+        settings_(settings), scratch_(scratch), result_(result), width_(views.width()),
+        height_(views.height()), arms_(views.arms.size()),
         channels_(static_cast<std::size_t>(views.reference.channels())),
         stride_(roundUp(width_, TILE_PIXELS)), moments_(momentCount(views.reference.channels())),
         pair_stride_(moments_ * stride_), near_ring_(2 * RESIDUAL_RADIUS + 1),
@@ -78,7 +82,8 @@ public:
     scratch_.weights.resize(rays_.rays.size() * TILE_PIXELS);
     scratch_.disparity.assign(stride_, 0.0F);
     scratch_.sums.resize(pair_stride_);
-    scratch_.solutions.resize(3 * stride_);
+    scratch_.solutions.resize(4 * stride_);
+    scratch_.slope_noise.assign(stride_, 0.0F);
     scratch_.columns.resize(std::max(moments_, arms_ + 1) * stride_);
   }
 
@@ -263,8 +268,9 @@ private:
   void solve(int y) const
   {
     float* const solutions = scratch_.solutions.data();
-    std::fill(solutions, solutions + 3 * stride_, 0.0F);
-    const SolutionRow solution{solutions, solutions + stride_, solutions + 2 * stride_};
+    std::fill(solutions, solutions + 4 * stride_, 0.0F);
+    const SolutionRow solution{solutions, solutions + stride_, solutions + 2 * stride_,
+                               solutions + 3 * stride_};
     for (const int pair : pairs_)
     {
       sumWindow(y, pair);
@@ -281,17 +287,34 @@ private:
     row.disparity = scratch_.disparity.data();
     row.window = static_cast<float>((2 * settings_.window_radius + 1) * (2 * settings_.window_radius + 1));
     row.max_step_px = settings_.max_step_px;
-    row.max_weight = settings_.max_weight;
+    setSlopeNoise(y);
+    row.slope_noise = scratch_.slope_noise.data();
     row.width = width_;
     solveRow(row, solution);
     std::copy_n(solution.curvature, width_, result_.weight.ptr<float>(y));
     std::copy_n(solution.gradient, width_, result_.target.ptr<float>(y));
     std::copy_n(solution.disagreement, width_, result_.disagreement.ptr<float>(y));
+    std::copy_n(solution.positions, width_, result_.noise.ptr<float>(y));
+  }
+
+  /// The variance that noise gives the slopes of the refocused mean, sum over the channels.
+  void setSlopeNoise(int y) const
+  {
+    if (slope_variance_.empty())
+    {
+      return;
+    }
+    const auto views = static_cast<float>(views_.views.size());
+    const float factor = static_cast<float>(channels_) / (1.0F + SHARE_OF_MEAN * views);
+    const auto* const row = slope_variance_.ptr<float>(y);
+    std::transform(row, row + width_, scratch_.slope_noise.begin(),
+                   [&](float value) { return factor * value; });
   }
 
   const ViewSet& views_;
   const ViewRays& rays_;
   const cv::Mat& disparity_;
+  const cv::Mat& slope_variance_;
   const LinearizationSettings& settings_;
   Scratch& scratch_;
   Linearization& result_;
@@ -309,13 +332,14 @@ private:
   int pair_ring_;
 };
 
-void Linearizer::run(const ViewSet& views, const cv::Mat& disparity, const LinearizationSettings& settings,
-                     ThreadPool& pool, Linearization& result)
+void Linearizer::run(const ViewSet& views, const cv::Mat& disparity, const cv::Mat& slope_variance,
+                     const LinearizationSettings& settings, ThreadPool& pool, Linearization& result)
 {
   result.weight.create(disparity.size(), CV_32FC1);
   result.target.create(disparity.size(), CV_32FC1);
   result.residual.create(disparity.size(), CV_32FC1);
   result.disagreement.create(disparity.size(), CV_32FC1);
+  result.noise.create(disparity.size(), CV_32FC1);
   const ViewRays rays = findViewRays(views);
   const int bands = BANDS_PER_THREAD * pool.threads();
   const int band_rows = std::max(MIN_BAND_ROWS, (disparity.rows + bands - 1) / bands);
@@ -323,8 +347,9 @@ void Linearizer::run(const ViewSet& views, const cv::Mat& disparity, const Linea
       0, disparity.rows, band_rows,
       [&](int first, int last)
       {
-        scratch_.use([&](Scratch& scratch)
-                     { Band(views, rays, disparity, settings, scratch, result).run(first, last); });
+        scratch_.use(
+            [&](Scratch& scratch)
+            { Band(views, rays, disparity, slope_variance, settings, scratch, result).run(first, last); });
       });
 }
 

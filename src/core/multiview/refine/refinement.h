@@ -15,18 +15,19 @@ namespace light_field_depth::multiview
 /// Where the quadratic approximation of the matching error of all views has its minimum.
 struct Linearization
 {
-  cv::Mat weight;  ///< CV_32FC1, curvature of the error: how well the images fix the disparity
+  /// CV_32FC1, curvature of the error: how well the images fix the disparity. See NoiseDiscount.
+  cv::Mat weight;
   cv::Mat target;  ///< CV_32FC1, disparity of the minimum
   /// CV_32FC1, mean absolute difference to the reference in the arm that fits best, sum of three channels.
   cv::Mat residual;
   /// CV_32FC1, px: how far the pairs of opposite directions, each alone, would place the minimum apart.
   cv::Mat disagreement;
+  cv::Mat noise;  ///< CV_32FC1, what noise adds to the curvature, on the mean
 };
 
 struct LinearizationSettings
 {
   float max_step_px = 0.15F;     ///< the approximation holds for small steps only
-  float max_weight = 400.0F;     ///< of one pixel, so that strong texture does not outvote all smoothness
   bool brightness_slope = true;  ///< allow brightness that changes linearly with the position of the view
   int window_radius = 2;         ///< pixels that share one step
   /// Grey levels, sum of three channels: views that differ more from the reference drop out of the mean.
@@ -44,8 +45,9 @@ public:
   ~Linearizer();
 
   /// @param disparity CV_32FC1, finite
-  void run(const ViewSet& views, const cv::Mat& disparity, const LinearizationSettings& settings,
-           ThreadPool& pool, Linearization& result);
+  /// @param slope_variance CV_32FC1, of the noise in derivatives of one view (ViewNoise); empty: none
+  void run(const ViewSet& views, const cv::Mat& disparity, const cv::Mat& slope_variance,
+           const LinearizationSettings& settings, ThreadPool& pool, Linearization& result);
 
 private:
   struct Scratch;

@@ -134,8 +134,9 @@ TEST_P(NormalEquations, FindTheStepUnderABrightnessThatChangesWithThePosition)
   {
     boxRow(pair.data() + moment * STRIDE, WIDTH, 1, window.data() + moment * STRIDE);
   }
-  std::vector<float> sums(3 * STRIDE);
-  const SolutionRow solution{sums.data(), sums.data() + STRIDE, sums.data() + 2 * STRIDE};
+  std::vector<float> sums(4 * STRIDE);
+  const SolutionRow solution{sums.data(), sums.data() + STRIDE, sums.data() + 2 * STRIDE,
+                             sums.data() + 3 * STRIDE};
   PairRow row;
   row.moments = window.data();
   row.width = WIDTH;
@@ -145,6 +146,8 @@ TEST_P(NormalEquations, FindTheStepUnderABrightnessThatChangesWithThePosition)
   FinalRow final_row;
   final_row.disparity = disparity.data();
   final_row.window = 3.0F;
+  const std::vector<float> slope_noise(STRIDE, 0.5F);
+  final_row.slope_noise = slope_noise.data();
   final_row.width = WIDTH;
   solveRow(final_row, solution);
   for (std::size_t x = 1; x + 1 < WIDTH; ++x)
@@ -152,6 +155,8 @@ TEST_P(NormalEquations, FindTheStepUnderABrightnessThatChangesWithThePosition)
     ASSERT_NEAR(solution.gradient[x], 1.0F + step, 2e-3) << x;
     ASSERT_LE(solution.disagreement[x], 1e-3) << x;
     ASSERT_GT(solution.curvature[x], 0.0F) << x;
+    // Three columns of four views with k^2 = 4, 1, 1, 4 in a window of three.
+    ASSERT_NEAR(solution.positions[x], 0.5F * 10.0F, 1e-4) << x;
   }
 }
 

@@ -1,0 +1,443 @@
+#include "core/preprocess/view_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "core/preprocess/view_noise_kernels.h"
+
+namespace light_field_depth::multiview
+{
+namespace
+{
+constexpr int BLOCK = NOISE_BLOCK_PX;
+/// Means of so many pixels tell how calm a block is: white noise is low in them.
+constexpr int CELL = 4;
+constexpr int CELLS = 3;  // in a row over a block and what lies about it
+constexpr int MARGIN = (CELLS * CELL - BLOCK) / 2;
+constexpr int VIEWS_COMPARED = 8;
+constexpr int MIN_VIEWS_COMPARED = 2;
+constexpr int MIN_BLOCKS = 50;
+/// Between black and white, with room for noise on both sides.
+constexpr int DARKEST_LEVEL = 12;
+constexpr int BRIGHTEST_LEVEL = 243;
+/// Of the blocks: the calmest ones tell the noise, and where it is local, also those of the calmer half.
+constexpr double CALMEST_PART = 0.15;
+constexpr double CALMER_PART = 0.5;
+/// A search over shifts takes this many blocks, evenly spread.
+constexpr int SEARCHED_BLOCKS = 256;
+constexpr int MAX_SHIFTS = 256;
+/// Local values: blocks in a row that give the median, its least number, and the most by which it may exceed
+/// that of the whole image.
+constexpr int LOCAL_BLOCKS = 7;
+constexpr int MIN_LOCAL_BLOCKS = 6;
+constexpr float MAX_LOCAL_RATIO = 4.0F;
+constexpr int LOCAL_STEP_BLOCKS = 2;
+constexpr int BLOCK_ROWS_PER_CHUNK = 4;
+/// Slopes are summed in twelfths.
+constexpr float SLOPE_UNIT = 12.0F;
+
+/// Pixels of an image, whether its channels lie in planes or beside each other.
+struct Pixels
+{
+  const std::uint8_t* origin;
+  std::ptrdiff_t row_stride;
+  std::ptrdiff_t pixel_stride;
+  std::ptrdiff_t channel_stride;
+  int channels;
+  cv::Size size;
+
+  const std::uint8_t* at(int x, int y) const { return origin + y * row_stride + x * pixel_stride; }
+};
+
+Pixels pixelsOf(const PlanarImage& image)
+{
+  const auto channel_stride = static_cast<std::ptrdiff_t>(image.channelStride());
+  return {image.row(0),     channel_stride * image.channels(), 1, channel_stride,
+          image.channels(), {image.width(), image.height()}};
+}
+
+Pixels pixelsOf(const cv::Mat& image)
+{
+  return {image.ptr<std::uint8_t>(), static_cast<std::ptrdiff_t>(image.step[0]),
+          image.channels(),          1,
+          image.channels(),          image.size()};
+}
+
+struct Block
+{
+  int x = 0;
+  int y = 0;
+  int change = 0;        ///< between the means of neighbouring cells
+  bool midtone = false;  ///< neither nearly black nor nearly white
+  float value = -1.0F;   ///< variance; below 0: unknown
+  float slope = -1.0F;
+};
+
+/// Blocks in rows and columns, so that the cells of each begin at a multiple of CELL.
+class BlockGrid
+{
+public:
+  BlockGrid(const cv::Size& image, int step)
+      : step_(step * BLOCK), columns_(count(image.width)), rows_(count(image.height)),
+        blocks_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_))
+  {
+    for (int row = 0; row < rows_; ++row)
+    {
+      for (int column = 0; column < columns_; ++column)
+      {
+        at(column, row).x = MARGIN + column * step_;
+        at(column, row).y = MARGIN + row * step_;
+      }
+    }
+  }
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  Block& at(int column, int row)
+  {
+    return blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                   static_cast<std::size_t>(column)];
+  }
+  std::vector<Block>& blocks() { return blocks_; }
+
+  static int count(int side, int step)
+  {
+    return side < BLOCK + 2 * MARGIN ? 0 : (side - BLOCK - 2 * MARGIN) / step + 1;
+  }
+
+private:
+  int count(int side) const { return count(side, step_); }
+
+  int step_;
+  int columns_;
+  int rows_;
+  std::vector<Block> blocks_;
+};
+
+/// Sets the sum of the changes between neighbouring cells and whether the block is neither black nor white.
+void look(const Pixels& pixels, Block& block)
+{
+  block.change = 0;
+  int level = 0;
+  for (int c = 0; c < pixels.channels; ++c)
+  {
+    std::array<std::array<int, CELLS>, CELLS> cells{};
+    for (int y = 0; y < CELLS * CELL; ++y)
+    {
+      const std::uint8_t* pixel =
+          pixels.at(block.x - MARGIN, block.y - MARGIN + y) + c * pixels.channel_stride;
+      for (int& cell : cells[static_cast<std::size_t>(y / CELL)])
+      {
+        for (int x = 0; x < CELL; ++x, pixel += pixels.pixel_stride)
+        {
+          cell += *pixel;
+        }
+      }
+    }
+    for (std::size_t y = 0; y < CELLS; ++y)
+    {
+      for (std::size_t x = 0; x < CELLS; ++x)
+      {
+        level += cells[y][x];
+        block.change += x > 0 ? std::abs(cells[y][x] - cells[y][x - 1]) : 0;
+        block.change += y > 0 ? std::abs(cells[y][x] - cells[y - 1][x]) : 0;
+      }
+    }
+  }
+  const int count = pixels.channels * CELLS * CELL * CELLS * CELL;
+  block.midtone = level > DARKEST_LEVEL * count && level < BRIGHTEST_LEVEL * count;
+}
+
+template <typename Value>
+Value medianOf(std::vector<Value>& values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// @return the change that a part of the midtone blocks does not exceed; negative if there are too few blocks
+int calmLimit(const std::vector<Block>& blocks, double part)
+{
+  std::vector<int> changes;
+  for (const Block& block : blocks)
+  {
+    if (block.midtone)
+    {
+      changes.push_back(block.change);
+    }
+  }
+  if (changes.size() < MIN_BLOCKS)
+  {
+    return -1;
+  }
+  const auto limit =
+      changes.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(changes.size()));
+  std::nth_element(changes.begin(), limit, changes.end());
+  return *limit;
+}
+
+/// Variance within the block of the difference to a block of another view, a channel.
+float variance(const DifferenceSums& sums, int channels)
+{
+  constexpr float pixels = BLOCK * BLOCK;
+  std::array<int, 3> means{};
+  for (int i = 0; i < channels * BLOCK; ++i)
+  {
+    means[static_cast<std::size_t>(i % channels)] += sums.columns[i];
+  }
+  auto squares = static_cast<float>(sums.squares);
+  for (const int sum : means)
+  {
+    squares -= static_cast<float>(sum) * static_cast<float>(sum) / pixels;
+  }
+  return squares / (pixels * static_cast<float>(channels));
+}
+
+bool isInside(const Pixels& pixels, int x, int y)
+{
+  return x >= MARGIN && y >= MARGIN && x + BLOCK + MARGIN <= pixels.size.width &&
+         y + BLOCK + MARGIN <= pixels.size.height;
+}
+
+/// The nearest view of every direction, then the second ones.
+std::vector<std::size_t> nearestOfArms(const ViewSet& views)
+{
+  std::vector<std::size_t> chosen;
+  for (int k = 0; k < VIEWS_COMPARED; ++k)
+  {
+    for (const Arm& arm : views.arms)
+    {
+      if (arm.first + k < arm.last && chosen.size() < VIEWS_COMPARED)
+      {
+        chosen.push_back(static_cast<std::size_t>(arm.first + k));
+      }
+    }
+  }
+  return chosen;
+}
+
+std::vector<std::size_t> nearestViews(const LightField& light_field)
+{
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < light_field.views.size(); ++i)
+  {
+    if (i != light_field.reference_index)
+    {
+      chosen.push_back(i);
+    }
+  }
+  const auto distance = [&](std::size_t i)
+  { return std::hypot(light_field.views[i].steps.x, light_field.views[i].steps.y); };
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+  chosen.resize(std::min<std::size_t>(chosen.size(), VIEWS_COMPARED));
+  return chosen;
+}
+
+/// Variance of the difference to the view at the shift where it is least; negative if the view shows the
+/// block at none.
+float leastVariance(const Pixels& reference, const View& view, const DisparityRange& range,
+                    const Block& block)
+{
+  const Pixels pixels = pixelsOf(view.image);
+  const double widest = std::max(std::abs(view.steps.x), std::abs(view.steps.y));
+  const int shifts = std::min(cvCeil((range.max - range.min) * widest) + 1, MAX_SHIFTS);
+  float least = -1.0F;
+  for (int i = 0; i < shifts; ++i)
+  {
+    const double disparity = range.min + (shifts > 1 ? i * (range.max - range.min) / (shifts - 1) : 0.0);
+    const int x = block.x + cvRound(view.offset_px.x - disparity * view.steps.x);
+    const int y = block.y + cvRound(view.offset_px.y - disparity * view.steps.y);
+    if (isInside(pixels, x, y))
+    {
+      const DifferenceSums sums = sumDifferences(
+          {reference.at(block.x, block.y), reference.row_stride, pixels.at(x, y), pixels.row_stride},
+          BLOCK * reference.channels);
+      const float here = variance(sums, reference.channels);
+      least = least < 0.0F ? here : std::min(least, here);
+    }
+  }
+  return least;
+}
+
+/// Compares a block of prepared views at its disparity.
+void compareAt(const ViewSet& views, const std::vector<std::size_t>& chosen, float disparity, Block& block)
+{
+  std::vector<float> values;
+  std::vector<float> slopes;
+  const Pixels reference = pixelsOf(views.reference);
+  for (const std::size_t i : chosen)
+  {
+    const PreparedView& view = views.views[i];
+    const Pixels pixels = pixelsOf(view.image);
+    const int x = block.x + cvRound(view.offset_px.x - static_cast<double>(disparity) * view.steps.x);
+    const int y = block.y + cvRound(view.offset_px.y - static_cast<double>(disparity) * view.steps.y);
+    if (!isInside(pixels, x, y))
+    {
+      continue;
+    }
+    float value = 0.0F;
+    float slope = 0.0F;
+    for (int c = 0; c < reference.channels; ++c)
+    {
+      const BlockPair pair{reference.at(block.x, block.y) + c * reference.channel_stride,
+                           reference.row_stride, pixels.at(x, y) + c * pixels.channel_stride,
+                           pixels.row_stride};
+      value += variance(sumDifferences(pair, BLOCK), 1);
+      slope += static_cast<float>(sumSlopes(pair));
+    }
+    values.push_back(value / static_cast<float>(reference.channels));
+    slopes.push_back(
+        slope / (SLOPE_UNIT * SLOPE_UNIT * 2.0F * BLOCK * BLOCK * static_cast<float>(reference.channels)));
+  }
+  if (values.size() >= MIN_VIEWS_COMPARED)
+  {
+    // The difference of two views has the noise of both.
+    block.value = 0.5F * medianOf(values);
+    block.slope = 0.5F * medianOf(slopes);
+  }
+}
+
+void findChanges(const Pixels& pixels, ThreadPool& pool, BlockGrid& grid)
+{
+  pool.parallelFor(0, grid.rows(), BLOCK_ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     for (int row = first; row < last; ++row)
+                     {
+                       for (int column = 0; column < grid.columns(); ++column)
+                       {
+                         look(pixels, grid.at(column, row));
+                       }
+                     }
+                   });
+}
+
+/// Median of what the blocks that are calm enough know; 0 if none does.
+float medianOfCalm(const std::vector<Block>& blocks, int limit, float Block::*field)
+{
+  std::vector<float> values;
+  for (const Block& block : blocks)
+  {
+    if (block.midtone && block.change <= limit && block.*field >= 0.0F)
+    {
+      values.push_back(block.*field);
+    }
+  }
+  return values.empty() ? 0.0F : medianOf(values);
+}
+
+/// Medians over the blocks about every second one, between them by interpolation.
+void setLocalSlopes(BlockGrid& grid, const cv::Size& size, float overall, cv::Mat& local)
+{
+  const auto cells = [](int blocks)
+  { return std::max(1, (blocks + LOCAL_STEP_BLOCKS - 1) / LOCAL_STEP_BLOCKS); };
+  cv::Mat medians(cells(grid.rows()), cells(grid.columns()), CV_32FC1, cv::Scalar(overall));
+  std::vector<float> near;
+  for (int row = 0; row < medians.rows; ++row)
+  {
+    for (int column = 0; column < medians.cols; ++column)
+    {
+      near.clear();
+      constexpr int reach = LOCAL_BLOCKS / 2;
+      const int middle_y = row * LOCAL_STEP_BLOCKS;
+      const int middle_x = column * LOCAL_STEP_BLOCKS;
+      for (int y = std::max(middle_y - reach, 0); y <= std::min(middle_y + reach, grid.rows() - 1); ++y)
+      {
+        for (int x = std::max(middle_x - reach, 0); x <= std::min(middle_x + reach, grid.columns() - 1); ++x)
+        {
+          if (grid.at(x, y).slope >= 0.0F)
+          {
+            near.push_back(grid.at(x, y).slope);
+          }
+        }
+      }
+      if (near.size() >= MIN_LOCAL_BLOCKS)
+      {
+        medians.at<float>(row, column) = std::min(medianOf(near), MAX_LOCAL_RATIO * overall);
+      }
+    }
+  }
+  cv::resize(medians, local, size, 0.0, 0.0, cv::INTER_LINEAR);
+}
+
+}  // namespace
+
+float estimateNoiseOfViews(const LightField& light_field, const DisparityRange& range, ThreadPool& pool)
+{
+  const Pixels reference = pixelsOf(light_field.reference().image);
+  const int all =
+      BlockGrid::count(reference.size.width, BLOCK) * BlockGrid::count(reference.size.height, BLOCK);
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(all) / SEARCHED_BLOCKS)));
+  BlockGrid grid(reference.size, step);
+  findChanges(reference, pool, grid);
+  const int limit = calmLimit(grid.blocks(), CALMEST_PART);
+  const std::vector<std::size_t> chosen = nearestViews(light_field);
+  auto& blocks = grid.blocks();
+  const auto compare = [&](Block& block)
+  {
+    std::vector<float> values;
+    for (const std::size_t i : chosen)
+    {
+      const float value = leastVariance(reference, light_field.views[i], range, block);
+      if (value >= 0.0F)
+      {
+        values.push_back(value);
+      }
+    }
+    if (values.size() >= MIN_VIEWS_COMPARED)
+    {
+      block.value = 0.5F * medianOf(values);
+    }
+  };
+  pool.parallelFor(0, static_cast<int>(blocks.size()), 16,
+                   [&](int first, int last)
+                   {
+                     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+                     {
+                       if (blocks[i].midtone && blocks[i].change <= limit)
+                       {
+                         compare(blocks[i]);
+                       }
+                     }
+                   });
+  return std::sqrt(medianOfCalm(blocks, limit, &Block::value));
+}
+
+void measureViewNoise(const ViewSet& views, const cv::Mat& disparity, ThreadPool& pool, ViewNoise& noise)
+{
+  BlockGrid grid({views.width(), views.height()}, 1);
+  findChanges(pixelsOf(views.reference), pool, grid);
+  const int calmest = calmLimit(grid.blocks(), CALMEST_PART);
+  const int calmer = calmLimit(grid.blocks(), CALMER_PART);
+  const std::vector<std::size_t> chosen = nearestOfArms(views);
+  pool.parallelFor(0, grid.rows(), BLOCK_ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     for (int row = first; row < last; ++row)
+                     {
+                       for (int column = 0; column < grid.columns(); ++column)
+                       {
+                         Block& block = grid.at(column, row);
+                         if (block.change <= calmer)
+                         {
+                           compareAt(views, chosen,
+                                     disparity.at<float>(block.y + BLOCK / 2, block.x + BLOCK / 2), block);
+                         }
+                       }
+                     }
+                   });
+  noise.value_variance = medianOfCalm(grid.blocks(), calmest, &Block::value);
+  noise.slope_variance = medianOfCalm(grid.blocks(), calmest, &Block::slope);
+  setLocalSlopes(grid, disparity.size(), noise.slope_variance, noise.local_slope_variance);
+}
+
+}  // namespace light_field_depth::multiview
