@@ -6,20 +6,20 @@
 #include <system_error>
 #include <utility>
 
+#include "io/dataset_format.h"
 #include "io/dataset_layout.h"
 #include "io/folder_description.h"
 #include "io/view_placement.h"
 #include "io/view_store.h"
 #include "light_field_depth/core/enum_names.h"
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/io/image_files.h"
 
 namespace light_field_depth
 {
 namespace
 {
 namespace fs = std::filesystem;
-
-constexpr const char* DESCRIPTION_FILE = "light_field.yaml";
 
 constexpr int MAX_GRID_SIDE = 999;
 
@@ -35,19 +35,24 @@ constexpr EnumNames<Flip, 4> FLIP_NAMES = {{
     {Flip::Both, "both"},
 }};
 
-FolderDescription describe(const fs::path& folder)
+FolderDescription describe(const fs::path& path, const DatasetOptions& options)
 {
   std::error_code error;
-  if (!fs::exists(folder, error))
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found)
   {
-    throw InputError("The folder '" + folder.string() + "' does not exist; check the path.");
+    throw InputError("The folder '" + path.string() + "' does not exist; check the path.");
   }
-  if (!fs::is_directory(folder, error))
+  if (status.type() == fs::file_type::directory)
   {
-    throw InputError("'" + folder.string() + "' is not a folder; name the folder that holds the views.");
+    return describeFolder(path, options);
   }
-  const fs::path yaml_file = folder / DESCRIPTION_FILE;
-  return fs::exists(yaml_file) ? describeByYaml(yaml_file) : describeByNames(folder);
+  if (status.type() == fs::file_type::regular && isImageFile(path))
+  {
+    return describeImage(path, options);
+  }
+  throw InputError("'" + path.string() + "' is not a folder" + (error ? " (" + error.message() + ")" : "") +
+                   "; name the folder that holds the views, or one image with all of them.");
 }
 
 std::string imageText(const cv::Mat& image)
@@ -71,22 +76,28 @@ void requireEqualImages(const std::vector<ViewFile>& files, const std::vector<Vi
   }
 }
 
-Calibration calibrationFrom(const CameraDescription& camera, const cv::Size& size, const cv::Point2d& steps)
+Calibration calibrationFrom(const CameraDescription& camera, const cv::Size& size, const PlacedViews& placed)
 {
+  const double scale =
+      camera.calibrated_width > 0 ? static_cast<double>(size.width) / camera.calibrated_width : 1.0;
   Calibration calibration;
   calibration.focal_length_px = camera.focal_length_px > 0.0
-                                    ? camera.focal_length_px
+                                    ? camera.focal_length_px * scale
                                     : camera.focal_length_per_side * std::max(size.width, size.height);
-  calibration.baseline_m = camera.baseline_m;
+  calibration.baseline_m = camera.baseline_m > 0.0 ? camera.baseline_m : placed.step_m;
+  calibration.disparity_offset_px = camera.disparity_offset_px.value_or(0.0) * scale;
   if (camera.focus_distance_m)
   {
     calibration.disparity_offset_px =
         calibration.focal_length_px * calibration.baseline_m / *camera.focus_distance_m;
   }
+  // A pixel's centre is at an integer: the corner of the image is at -0.5.
   const cv::Point2d centre(0.5 * (size.width - 1), 0.5 * (size.height - 1));
+  const cv::Point2d half(0.5, 0.5);
+  const cv::Point2d point =
+      camera.principal_point_px ? (*camera.principal_point_px + half) * scale - half : centre;
   // The principal points of a sheared light field move from view to view.
-  calibration.principal_point_px =
-      camera.principal_point_px.value_or(centre) + steps * calibration.disparity_offset_px;
+  calibration.principal_point_px = point + placed.reference_steps * calibration.disparity_offset_px;
   return calibration;
 }
 
@@ -162,7 +173,7 @@ std::string toString(PlaceClaim claim)
 
 Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
 {
-  FolderDescription description = describe(folder);
+  FolderDescription description = describe(folder, options);
   ViewStore store(description.views, options.threads);
   settleGrid(description, options, store);
   const Layout layout = settleLayout(description, options, store);
@@ -184,7 +195,7 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
   std::optional<Calibration> calibration;
   if (description.camera)
   {
-    calibration = calibrationFrom(*description.camera, views.front().image.size(), placed.reference_steps);
+    calibration = calibrationFrom(*description.camera, views.front().image.size(), placed);
   }
   dataset.light_field = makeLightField(std::move(views), placed.reference, calibration);
   if (placed.own_layout)
@@ -195,6 +206,7 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
   {
     dataset.truth = description.truth;
   }
+  dataset.frames = std::move(description.frames);
   dataset.notes = std::move(description.notes);
   dataset.warnings = std::move(description.warnings);
   return dataset;

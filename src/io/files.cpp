@@ -52,6 +52,11 @@ std::string readFile(const fs::path& path)
   {
     throw InputError("'" + path.string() + "' is a folder, but a file is needed.");
   }
+  // A pipe may never end, and a device has no end at all.
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+  {
+    throw InputError("'" + path.string() + "' is a pipe or a device, but a file is needed.");
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream content;

@@ -22,13 +22,29 @@ inline bool canBeCounted(const GridPosition& number)
   return is_within(number.row) && is_within(number.column);
 }
 
+/// The part of an image file that is a view.
+struct ViewPart
+{
+  enum class Kind
+  {
+    Whole,   ///< the file is the view
+    Tile,    ///< the file is a table of views
+    Lenslet  ///< the file is a table of lenslets: each has one pixel of every view
+  };
+
+  Kind kind = Kind::Whole;
+  cv::Size grid;      ///< columns x rows of views in the file
+  GridPosition cell;  ///< of this view in the grid
+};
+
 /// A view before it is decoded.
 struct ViewFile
 {
   std::filesystem::path path;
   GridPosition number;                  ///< as the dataset counts; PlaceClaim::SingleNumber: {0, index}
   std::optional<cv::Point2d> position;  ///< of the camera, in any unit: x to the right, y downwards
-  std::size_t id = 0;                   ///< in the ViewStore
+  ViewPart part = {};
+  std::size_t id = 0;  ///< in the ViewStore
 };
 
 /// What a dataset says of its cameras.
@@ -37,9 +53,11 @@ struct CameraDescription
   double focal_length_px = 0.0;        ///< used if positive, else
   double focal_length_per_side = 0.0;  ///< focal length over the longer side of the image
   std::optional<cv::Point2d>
-      principal_point_px;                  ///< of the nominal reference view; the image's centre if absent
-  double baseline_m = 0.0;                 ///< between adjacent columns
-  std::optional<double> focus_distance_m;  ///< absent: parallel cameras
+      principal_point_px;                     ///< of the nominal reference view; the image's centre if absent
+  double baseline_m = 0.0;                    ///< between adjacent columns; 0: from the positions
+  std::optional<double> focus_distance_m;     ///< absent: parallel cameras, unless the offset says otherwise
+  std::optional<double> disparity_offset_px;  ///< Calibration::disparity_offset_px
+  int calibrated_width = 0;                   ///< of the images that the pixels above belong to; 0: of these
 };
 
 /// What the names and the descriptions in a folder say of its light field.
@@ -52,20 +70,16 @@ struct FolderDescription
   std::optional<GridPosition> reference;  ///< the view of the truth; the middle of the grid if absent
   std::optional<Flip> flip;               ///< found from the positions, or None, if absent
   std::optional<Order> order;             ///< RowMajor if absent
+  std::optional<double> position_unit_m;  ///< metres of one unit of the positions, where that is known
   std::optional<double> step_length;      ///< distance of adjacent columns in the unit of the positions
   double row_step_ratio = 1.0;            ///< distance of adjacent rows over that of adjacent columns
   std::optional<CameraDescription> camera;
   std::optional<DisparityRange> disparity_range;
   std::optional<std::filesystem::path> truth;
+  std::vector<std::string> frames;    ///< Dataset::frames
   std::vector<std::string> notes;     ///< Dataset::notes
   std::vector<std::string> warnings;  ///< Dataset::warnings
 };
-
-/// A folder with a light_field.yaml. @throw InputError
-FolderDescription describeByYaml(const std::filesystem::path& yaml_file);
-
-/// A folder whose files tell their place by their names. @throw InputError
-FolderDescription describeByNames(const std::filesystem::path& folder);
 
 /// Adds what an HCI parameters.cfg says: the grid, cameras, disparity range. @throw InputError
 void readHciParameters(const std::filesystem::path& cfg_file, FolderDescription& description);

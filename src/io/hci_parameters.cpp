@@ -1,4 +1,6 @@
 #include <cmath>
+#include <sstream>
+#include <string_view>
 
 #include <boost/property_tree/ini_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
@@ -6,6 +8,7 @@
 #include "io/folder_description.h"
 #include "io/number_text.h"
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/io/files.h"
 
 namespace light_field_depth
 {
@@ -13,6 +16,7 @@ namespace
 {
 constexpr double MM_PER_M = 1000.0;
 constexpr int MAX_GRID_SIDE = 255;
+constexpr std::string_view BYTE_ORDER_MARK = "\xEF\xBB\xBF";
 
 /// Typed access to the fields of a parameters.cfg.
 class Parameters
@@ -22,7 +26,13 @@ public:
   {
     try
     {
-      boost::property_tree::read_ini(file_.string(), tree_);
+      std::string text = readFile(file_);
+      if (text.compare(0, BYTE_ORDER_MARK.size(), BYTE_ORDER_MARK) == 0)
+      {
+        text.erase(0, BYTE_ORDER_MARK.size());
+      }
+      std::istringstream stream(text);
+      boost::property_tree::read_ini(stream, tree_);
     }
     catch (const boost::property_tree::ini_parser_error& error)
     {

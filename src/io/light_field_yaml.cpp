@@ -4,6 +4,7 @@
 #include <regex>
 #include <set>
 
+#include "io/dataset_format.h"
 #include "io/folder_description.h"
 #include "io/yaml_fields.h"
 #include "light_field_depth/core/error.h"
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr int MAX_GRID_SIDE = 255;
 constexpr int MAX_FIRST = 9999;
+constexpr const char* DESCRIPTION_FILE = "light_field.yaml";
 
 std::string padded(int number, std::size_t width)
 {
@@ -76,9 +78,10 @@ private:
   std::string tail_;
 };
 
-cv::Rect readGrid(const YamlFields& fields, const fs::path& file)
+/// {rows, columns} of a field.
+cv::Size readGridSize(const YamlFields& fields, const std::string& name, const fs::path& file)
 {
-  const YamlFields grid(file, "grid", fields.node("grid"));
+  const YamlFields grid(file, name, fields.node(name));
   grid.allowOnly({"rows", "columns"});
   const auto side = [&](const char* field)
   {
@@ -90,6 +93,12 @@ cv::Rect readGrid(const YamlFields& fields, const fs::path& file)
     }
     return value;
   };
+  return {side("columns"), side("rows")};
+}
+
+cv::Rect readGrid(const YamlFields& fields, const fs::path& file)
+{
+  const cv::Size size = readGridSize(fields, "grid", file);
   const std::string wanted =
       "[row, column], the numbers of the first view, from 0 to " + std::to_string(MAX_FIRST);
   const auto first = fields.integerPair("first", wanted).value_or(std::make_pair(0, 0));
@@ -97,7 +106,7 @@ cv::Rect readGrid(const YamlFields& fields, const fs::path& file)
   {
     fields.fail("first", wanted);
   }
-  return {first.second, first.first, side("columns"), side("rows")};
+  return {{first.second, first.first}, size};
 }
 
 Flip readOrder(const YamlFields& fields)
@@ -132,7 +141,7 @@ std::vector<ViewFile> findPatternViews(const fs::path& folder, const NamePattern
     {
       const GridPosition number = {grid.y + row, grid.x + column};
       const fs::path path = folder / pattern.name(number, first_index + row * grid.width + column);
-      if (fs::exists(path))
+      if (isFile(path))
       {
         views.push_back({path, number, std::nullopt});
       }
@@ -151,7 +160,7 @@ std::vector<ViewFile> findPatternViews(const fs::path& folder, const NamePattern
 std::vector<ViewFile> readViewList(const fs::path& file, const YamlFields& fields)
 {
   const YAML::Node list = fields.node("views");
-  if (!list.IsSequence())
+  if (!list.IsSequence() || list.size() == 0)
   {
     fields.fail("views", "a list of {row, column, file, position_m}");
   }
@@ -169,7 +178,7 @@ std::vector<ViewFile> readViewList(const fs::path& file, const YamlFields& field
                        "' lacks row, column or file; give all three.");
     }
     ViewFile view{file.parent_path() / *name, {*row, *column}, std::nullopt};
-    if (!fs::exists(view.path))
+    if (!isFile(view.path))
     {
       throw InputError("The file '" + view.path.string() + "' of views[" + std::to_string(i) + "] in '" +
                        file.string() + "' is not there.");
@@ -268,7 +277,7 @@ std::optional<fs::path> readTruth(const YamlFields& fields, const fs::path& file
     return std::nullopt;
   }
   const fs::path path = file.parent_path() / *name;
-  if (!fs::exists(path))
+  if (!isFile(path))
   {
     throw InputError("The file '" + path.string() + "' that '" + file.string() +
                      "' names as truth is not there.");
@@ -276,13 +285,46 @@ std::optional<fs::path> readTruth(const YamlFields& fields, const fs::path& file
   return path;
 }
 
+/// One image with all views: tiles or lenslets.
+void readParts(const YamlFields& fields, const fs::path& file, FolderDescription& description)
+{
+  const bool has_tiles = fields.has("tiles");
+  if (has_tiles == fields.has("lenslets") || fields.has("pattern") || fields.has("views") ||
+      fields.has("grid"))
+  {
+    throw InputError(
+        "'" + file.string() +
+        "' names one image; say how its views lie in it with either tiles or lenslets: {rows, columns}, "
+        "and leave out pattern, grid and views.");
+  }
+  const cv::Size grid = readGridSize(fields, has_tiles ? "tiles" : "lenslets", file);
+  const fs::path path = file.parent_path() / *fields.get<std::string>("image", "the name of an image");
+  if (!isFile(path))
+  {
+    throw InputError("The image '" + path.string() + "' that '" + file.string() + "' names is not there.");
+  }
+  for (int i = 0; i < grid.area(); ++i)
+  {
+    const GridPosition cell{i / grid.width, i % grid.width};
+    ViewFile view{path, cell, {}};
+    view.part = {has_tiles ? ViewPart::Kind::Tile : ViewPart::Kind::Lenslet, grid, cell};
+    description.views.push_back(view);
+  }
+}
+
 void readViews(const YamlFields& fields, const fs::path& file, FolderDescription& description)
 {
+  if (fields.has("image"))
+  {
+    readParts(fields, file, description);
+    return;
+  }
   const bool listed = fields.has("views");
   if (listed == fields.has("pattern") || (!listed && !fields.has("grid")))
   {
     throw InputError("'" + file.string() +
-                     "' must say where the views are: either pattern and grid, or a list of views.");
+                     "' must say where the views are: either pattern and grid, or a list of views, or one "
+                     "image.");
   }
   if (fields.has("grid"))
   {
@@ -305,12 +347,25 @@ void readViews(const YamlFields& fields, const fs::path& file, FolderDescription
 
 }  // namespace
 
-FolderDescription describeByYaml(const fs::path& yaml_file)
+Recognition recognizeYaml(const FolderListing& listing, const DatasetOptions& /*options*/)
 {
+  const fs::path yaml_file = listing.folder / DESCRIPTION_FILE;
+  std::error_code error;
+  const fs::file_type type = fs::status(yaml_file, error).type();
+  if (type == fs::file_type::not_found)
+  {
+    return Recognition::no("there is none");
+  }
+  if (type != fs::file_type::regular && type != fs::file_type::unknown)
+  {
+    throw InputError("'" + yaml_file.string() + "' is not a regular file" +
+                     (error ? ": " + error.message() : "") +
+                     "; put a file with the description in its place.");
+  }
   const YamlFields fields(yaml_file, "", loadYaml(yaml_file));
-  fields.allowOnly({"pattern", "grid", "first", "first_index", "views", "row_order", "column_order",
-                    "reference", "focal_length_px", "principal_point_px", "baseline_m", "focus_distance_m",
-                    "disparity_range", "truth"});
+  fields.allowOnly({"pattern", "grid", "image", "tiles", "lenslets", "first", "first_index", "views",
+                    "row_order", "column_order", "reference", "focal_length_px", "principal_point_px",
+                    "baseline_m", "focus_distance_m", "disparity_range", "truth"});
   FolderDescription description;
   description.format = "yaml";
   readViews(fields, yaml_file, description);

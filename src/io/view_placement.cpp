@@ -167,6 +167,13 @@ void checkStepLength(const std::filesystem::path& folder, const PositionGrid& po
   }
 }
 
+/// The length of one step in the unit of the positions.
+double stepLength(const FolderDescription& description, const PositionGrid& positions)
+{
+  const double column_step = std::abs(positions.column_step);
+  return description.step_length.value_or(column_step > 0.0 ? column_step : std::abs(positions.row_step));
+}
+
 /// Where a view stands in units of one column step, before the reference is subtracted.
 class StepRule
 {
@@ -177,9 +184,7 @@ public:
   {
     if (positions)
     {
-      const double column_step = std::abs(positions->column_step);
-      const double unit =
-          description.step_length.value_or(column_step > 0.0 ? column_step : std::abs(positions->row_step));
+      const double unit = stepLength(description, *positions);
       position_scale_ = {std::copysign(1.0 / unit, positions->column_step * number_scale_.x),
                          std::copysign(1.0 / unit, positions->row_step * number_scale_.y)};
     }
@@ -274,6 +279,10 @@ PlacedViews placeViews(const std::filesystem::path& folder, FolderDescription& d
       GridPosition{grid.y + (grid.height - 1) / 2, grid.x + (grid.width - 1) / 2});
   const GridPosition reference = chooseReference(folder, files, wanted_reference, nominal);
   placed.reference = place(reference);
+  if (positions && description.position_unit_m)
+  {
+    placed.step_m = stepLength(description, *positions) * *description.position_unit_m;
+  }
   placed.own_reference = reference == nominal;
   placed.reference_steps = stepsBetween(files, steps, nominal, reference);
 

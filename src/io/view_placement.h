@@ -15,6 +15,7 @@ struct PlacedViews
   std::vector<View> views;      ///< without images, row-major; FolderDescription::views has the same order
   GridPosition reference;       ///< as View::grid counts
   cv::Point2d reference_steps;  ///< from the dataset's own reference view to the chosen one
+  double step_m = 0.0;          ///< metres of one step, where the positions tell
   bool own_reference = true;    ///< the chosen one is the dataset's own
   Flip flip = Flip::None;       ///< that was applied
   bool own_layout = true;       ///< the dataset says the same, flip and order

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "io/image_period.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/image_files.h"
 
@@ -23,6 +24,7 @@ void ViewStore::decode(const std::vector<std::size_t>& ids)
   std::vector<std::size_t> wanted;
   std::copy_if(ids.begin(), ids.end(), std::back_inserter(wanted),
                [&](std::size_t id) { return images_[id].empty(); });
+  readTables(wanted);
   std::vector<std::string> failures(wanted.size());
   pool_.parallelFor(0, static_cast<int>(wanted.size()), 1,
                     [&](int first, int last)
@@ -31,7 +33,7 @@ void ViewStore::decode(const std::vector<std::size_t>& ids)
                       {
                         try
                         {
-                          images_[wanted[i]] = readImage(views_[wanted[i]].path);
+                          images_[wanted[i]] = read(views_[wanted[i]]);
                         }
                         catch (const InputError& error)
                         {
@@ -45,6 +47,33 @@ void ViewStore::decode(const std::vector<std::size_t>& ids)
   {
     throw InputError(*failure);
   }
+}
+
+void ViewStore::readTables(const std::vector<std::size_t>& wanted)
+{
+  for (const std::size_t id : wanted)
+  {
+    const ViewFile& view = views_[id];
+    if (view.part.kind == ViewPart::Kind::Whole || tables_.count(view.path) > 0)
+    {
+      continue;
+    }
+    const cv::Mat table = readImage(view.path);
+    if (table.cols % view.part.grid.width != 0 || table.rows % view.part.grid.height != 0)
+    {
+      throw InputError("The image '" + view.path.string() + "' of " + std::to_string(table.cols) + " x " +
+                       std::to_string(table.rows) + " pixels does not hold " +
+                       std::to_string(view.part.grid.height) + " x " + std::to_string(view.part.grid.width) +
+                       " equal views; check tiles or lenslets.");
+    }
+    tables_[view.path] = table;
+  }
+}
+
+cv::Mat ViewStore::read(const ViewFile& view) const
+{
+  return view.part.kind == ViewPart::Kind::Whole ? readImage(view.path)
+                                                 : extractPart(tables_.at(view.path), view.part);
 }
 
 const cv::Mat& ViewStore::image(std::size_t id)

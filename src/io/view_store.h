@@ -2,6 +2,8 @@
 #define LIGHT_FIELD_DEPTH_SRC_IO_VIEW_STORE_H
 
 #include <cstddef>
+#include <filesystem>
+#include <map>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -27,7 +29,12 @@ public:
   const cv::Mat& image(std::size_t id);
 
 private:
+  /// The files that hold more than one view, as far as they are wanted.
+  void readTables(const std::vector<std::size_t>& wanted);
+  cv::Mat read(const ViewFile& view) const;
+
   std::vector<ViewFile> views_;
+  std::map<std::filesystem::path, cv::Mat> tables_;
   std::vector<cv::Mat> images_;
   ThreadPool pool_;
 };

@@ -77,7 +77,7 @@ struct Dataset
   /// View::grid has the files' numbers, reversed where rows or columns are flipped. View::steps follow the
   /// numbers also where views are missing in between: disparities are always per step of the numbering.
   LightField light_field;
-  std::string format;                             ///< "hci", "grid", "stanford" or "yaml"
+  std::string format;                             ///< "yaml", "hci", "grid", "index", ...: docs/formats.md
   PlaceClaim place_claim = PlaceClaim::Stated;    ///< before options and images were asked
   Order order = Order::RowMajor;                  ///< that was applied
   Flip flip = Flip::None;                         ///< that was applied
@@ -88,13 +88,9 @@ struct Dataset
   std::vector<std::string> warnings;              ///< sentences on what may make the result wrong
 };
 
-/// Recognises the format of a folder by its files and reads all views, in parallel:
-///   - `light_field.yaml`, a description that names everything (see the README);
-///   - HCI: `input_Cam%03d.*`, calibrated by `parameters.cfg`;
-///   - Stanford: `out_RR_CC_Y_X.*`, camera positions in the names;
-///   - any grid: `RR_CC.*` with or without a prefix, or `RRCC.*`, counted from 0 or 1.
-/// Other files in the folder are left alone. The stated range and the truth are dropped where another
-/// reference view or flip makes them wrong.
+/// Recognises the format of a folder by its files (docs/formats.md has the list) and reads its views, in
+/// parallel. A file is a light field of tiles or lenslets. What is not named like a view is left out with a
+/// note. The stated range and the truth are dropped where another reference view or layout makes them wrong.
 /// @throw InputError that names the folder or the file, what is wrong with it and the remedy
 Dataset readDataset(const std::filesystem::path& folder, const DatasetOptions& options = {});
 

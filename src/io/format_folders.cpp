@@ -1,0 +1,185 @@
+// A folder for each camera (cam_00/image_000.jpg, left/0001.png) or for each frame (frame_000/00_00.png).
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <string_view>
+
+#include "io/dataset_format.h"
+#include "io/frame_choice.h"
+#include "io/name_groups.h"
+#include "light_field_depth/core/error.h"
+
+namespace light_field_depth
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 6> FRAME_WORDS = {"frame", "frames", "f", "time", "t", "step"};
+
+bool isFrameName(const fs::path& folder)
+{
+  std::string word;
+  for (const char letter : folder.filename().string() + " ")
+  {
+    if (std::isalpha(static_cast<unsigned char>(letter)) != 0)
+    {
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      continue;
+    }
+    if (std::find(FRAME_WORDS.begin(), FRAME_WORDS.end(), word) != FRAME_WORDS.end())
+    {
+      return true;
+    }
+    word.clear();
+  }
+  return false;
+}
+
+std::vector<fs::path> viewImages(const fs::path& folder)
+{
+  std::vector<fs::path> images = listFolder(folder).images;
+  const auto says_no = [](const fs::path& path) { return saysNoView(path.stem().string()); };
+  if (!std::all_of(images.begin(), images.end(), says_no))
+  {
+    images.erase(std::remove_if(images.begin(), images.end(), says_no), images.end());
+  }
+  return images;
+}
+
+/// The folders as if they were files, so that their names are understood like those of views.
+FolderListing asViews(const FolderListing& listing, const std::vector<fs::path>& folders)
+{
+  FolderListing views;
+  views.folder = listing.folder;
+  views.images = folders;
+  return views;
+}
+
+std::optional<FolderDescription> placeFolders(const FolderListing& views, const DatasetOptions& options)
+{
+  DatasetOptions without_frame = options;
+  without_frame.frame.reset();
+  for (const auto recognize :
+       {recognizeLeftRight, recognizeHci, recognizeRowsAndColumns, recognizeFourDigits, recognizeIndex})
+  {
+    Recognition recognition = recognize(views, without_frame);
+    if (recognition)
+    {
+      return std::move(*recognition);
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> stemsOf(const std::vector<fs::path>& images)
+{
+  std::vector<std::string> stems;
+  std::transform(images.begin(), images.end(), std::back_inserter(stems),
+                 [](const fs::path& path) { return path.stem().string(); });
+  return stems;
+}
+
+/// The image of the same frame in another camera's folder: of the same name, or else of the same place.
+fs::path sameFrame(const std::vector<fs::path>& images, const std::vector<std::string>& names,
+                   std::size_t frame, const fs::path& folder)
+{
+  const std::vector<std::string> stems = stemsOf(images);
+  const auto same_name = std::find(stems.begin(), stems.end(), names[frame]);
+  if (same_name != stems.end())
+  {
+    return images[static_cast<std::size_t>(same_name - stems.begin())];
+  }
+  if (images.size() != names.size())
+  {
+    throw InputError("The camera folder '" + folder.string() + "' has " + std::to_string(images.size()) +
+                     " image(s) and none is called '" + names[frame] + "', but the first camera has " +
+                     std::to_string(names.size()) + "; give all cameras the same frames.");
+  }
+  return images[frame];
+}
+
+FolderDescription describeCameras(FolderDescription description, const DatasetOptions& options)
+{
+  std::vector<std::string> names = stemsOf(viewImages(description.views.front().path));
+  const std::size_t frame = chooseFrame(names, options.frame, description);
+  for (ViewFile& view : description.views)
+  {
+    view.path = sameFrame(viewImages(view.path), names, frame, view.path);
+  }
+  description.format += " of folders";
+  return description;
+}
+
+FolderDescription describeFrames(const std::vector<fs::path>& folders, const DatasetOptions& options)
+{
+  std::vector<std::string> names;
+  std::transform(folders.begin(), folders.end(), std::back_inserter(names),
+                 [](const fs::path& path) { return path.filename().string(); });
+  FolderDescription choice;
+  const std::size_t frame = chooseFrame(names, options.frame, choice);
+  DatasetOptions without_frame = options;
+  without_frame.frame.reset();
+  FolderDescription description = describeFolder(folders[frame], without_frame);
+  description.frames = choice.frames;
+  description.notes.insert(description.notes.begin(), choice.notes.begin(), choice.notes.end());
+  return description;
+}
+
+/// Whether the images of a folder are a light field by themselves.
+bool holdsLightField(const FolderListing& listing, const DatasetOptions& options)
+{
+  const auto claims = [&](auto recognize)
+  {
+    Recognition recognition = recognize(listing, options);
+    return recognition && (*recognition).views.size() >= 2;
+  };
+  return isFile(listing.folder / "light_field.yaml") || claims(recognizeHci) || claims(recognizePositions) ||
+         claims(recognizeRowsAndColumns) || claims(recognizeFourDigits);
+}
+
+}  // namespace
+
+Recognition recognizeFolders(const FolderListing& listing, const DatasetOptions& options)
+{
+  const auto says_no = [](const fs::path& path) { return saysNoView(path.stem().string()); };
+  const auto views = listing.images.size() - static_cast<std::size_t>(std::count_if(
+                                                 listing.images.begin(), listing.images.end(), says_no));
+  if (views >= 2 || (views == 1 && listing.folders.size() < 2))
+  {
+    return Recognition::no("the images lie in the folder itself");
+  }
+  std::vector<fs::path> folders;
+  for (const fs::path& folder : listing.folders)
+  {
+    if (!saysNoView(folder.filename().string()) && !viewImages(folder).empty())
+    {
+      folders.push_back(folder);
+    }
+  }
+  if (folders.empty())
+  {
+    return Recognition::no("no folder in it has images");
+  }
+  if (folders.size() == 1)
+  {
+    FolderDescription description = describeFolder(folders.front(), options);
+    description.notes.insert(description.notes.begin(),
+                             "The views are those in '" + folders.front().filename().string() + "'.");
+    return description;
+  }
+  if (isFrameName(folders.front()) || holdsLightField(listFolder(folders.front()), options))
+  {
+    return describeFrames(folders, options);
+  }
+  auto cameras = placeFolders(asViews(listing, folders), options);
+  if (!cameras)
+  {
+    return Recognition::no("the names of the folders do not say which camera is where");
+  }
+  return describeCameras(std::move(*cameras), options);
+}
+
+}  // namespace light_field_depth

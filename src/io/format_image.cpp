@@ -1,0 +1,116 @@
+// All views in one image: tiles, or a table of lenslets (ESLF of the Lytro cameras).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/dataset_format.h"
+#include "io/image_period.h"
+#include "light_field_depth/core/error.h"
+#include "light_field_depth/io/image_files.h"
+
+namespace light_field_depth
+{
+namespace
+{
+/// The views of a plenoptic camera that look past the edge of the lens are dark: views that are less bright
+/// than this part of the middle one are left out.
+constexpr double MIN_BRIGHTNESS_OVER_MIDDLE = 0.5;
+
+FolderDescription describeParts(const std::filesystem::path& file, const cv::Size& grid, ViewPart::Kind kind)
+{
+  FolderDescription description;
+  description.format = kind == ViewPart::Kind::Tile ? "tiles" : "lenslets";
+  description.place_claim = PlaceClaim::TwoNumbers;
+  for (int row = 0; row < grid.height; ++row)
+  {
+    for (int column = 0; column < grid.width; ++column)
+    {
+      ViewFile view{file, {row, column}, {}};
+      view.part = {kind, grid, {row, column}};
+      description.views.push_back(view);
+    }
+  }
+  return description;
+}
+
+std::string gridText(const cv::Size& grid)
+{
+  return std::to_string(grid.height) + " x " + std::to_string(grid.width);
+}
+
+void leaveOutDarkViews(const cv::Mat& image, FolderDescription& description)
+{
+  const auto brightness = [&](const ViewFile& view)
+  {
+    const cv::Scalar mean = cv::mean(extractPart(image, view.part));
+    return mean[0] + mean[1] + mean[2];
+  };
+  std::vector<ViewFile>& views = description.views;
+  const double least = MIN_BRIGHTNESS_OVER_MIDDLE * brightness(views[views.size() / 2]);
+  const std::size_t all = views.size();
+  views.erase(std::remove_if(views.begin(), views.end(),
+                             [&](const ViewFile& view) { return brightness(view) < least; }),
+              views.end());
+  if (views.size() < all)
+  {
+    description.notes.push_back(std::to_string(all - views.size()) +
+                                " views are left out: less than half as bright as the middle one.");
+  }
+}
+
+Recognition recognizeParts(const std::filesystem::path& file, const DatasetOptions& options)
+{
+  const cv::Mat image = readImage(file);
+  if (options.tiles)
+  {
+    if (image.cols % options.tiles->width != 0 || image.rows % options.tiles->height != 0)
+    {
+      throw InputError("The image '" + file.string() + "' of " + std::to_string(image.cols) + " x " +
+                       std::to_string(image.rows) + " pixels cannot be cut into " + gridText(*options.tiles) +
+                       " equal tiles; check --tiles.");
+    }
+    return describeParts(file, *options.tiles, ViewPart::Kind::Tile);
+  }
+  if (const auto lenslets = findLenslets(image))
+  {
+    FolderDescription description = describeParts(file, *lenslets, ViewPart::Kind::Lenslet);
+    description.notes.push_back("'" + file.filename().string() + "' is read as lenslets of " +
+                                gridText(*lenslets) + " pixels; --tiles ROWSxCOLUMNS reads it as tiles.");
+    leaveOutDarkViews(image, description);
+    return description;
+  }
+  if (const auto tiles = findTiles(image))
+  {
+    FolderDescription description = describeParts(file, *tiles, ViewPart::Kind::Tile);
+    description.notes.push_back("'" + file.filename().string() + "' is read as " + gridText(*tiles) +
+                                " tiles; --tiles ROWSxCOLUMNS says otherwise.");
+    return description;
+  }
+  return Recognition::no("'" + file.filename().string() + "' shows neither lenslets nor tiles that repeat");
+}
+
+}  // namespace
+
+FolderDescription describeImage(const std::filesystem::path& file, const DatasetOptions& options)
+{
+  Recognition recognition = recognizeParts(file, options);
+  if (!recognition)
+  {
+    throw InputError("'" + file.string() + "' is one image, and " + recognition.reason() +
+                     "; if its views are tiles, say how many with --tiles ROWSxCOLUMNS, otherwise name the "
+                     "folder that holds the views.");
+  }
+  return std::move(*recognition);
+}
+
+Recognition recognizeImage(const FolderListing& listing, const DatasetOptions& options)
+{
+  if (listing.images.size() != 1)
+  {
+    return Recognition::no("there are " + std::to_string(listing.images.size()) + " images, not one");
+  }
+  return recognizeParts(listing.images.front(), options);
+}
+
+}  // namespace light_field_depth

@@ -1,0 +1,100 @@
+// Stereo pairs: left.png and right.png, scene_L.png and scene_R.png, also one pair for each frame.
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "io/dataset_format.h"
+#include "io/frame_choice.h"
+#include "io/name_groups.h"
+
+namespace light_field_depth
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/// The name without its word for the side, and the side: 0 left, 1 right; no side if there is no such word.
+std::pair<std::string, std::optional<int>> sideOf(const std::string& name)
+{
+  std::string rest;
+  std::string word;
+  std::optional<int> side;
+  for (const char letter : name + "_")
+  {
+    if (std::isalpha(static_cast<unsigned char>(letter)) != 0)
+    {
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      continue;
+    }
+    const bool is_left = word == "left" || word == "l";
+    const bool is_right = word == "right" || word == "r";
+    if (is_left || is_right)
+    {
+      side = is_left ? 0 : 1;
+      word = "#";
+    }
+    rest += word + letter;
+    word.clear();
+  }
+  return {rest.substr(0, rest.size() - 1), side};
+}
+
+struct Pair
+{
+  std::string name;
+  fs::path left;
+  fs::path right;
+};
+
+bool sortsPairBefore(const Pair& a, const Pair& b)
+{
+  return sortsBefore(a.name, b.name);
+}
+
+}  // namespace
+
+Recognition recognizeLeftRight(const FolderListing& listing, const DatasetOptions& options)
+{
+  std::map<std::string, Pair> found;
+  std::vector<fs::path> others;
+  for (const fs::path& image : listing.images)
+  {
+    const std::string stem = image.stem().string();
+    const auto [name, side] = sideOf(stem);
+    if (!side || saysNoView(stem))
+    {
+      others.push_back(image);
+      continue;
+    }
+    found[name].name = name;
+    (*side == 0 ? found[name].left : found[name].right) = image;
+  }
+  std::vector<Pair> pairs;
+  for (const auto& [name, pair] : found)
+  {
+    if (!pair.left.empty() && !pair.right.empty())
+    {
+      pairs.push_back(pair);
+    }
+  }
+  const auto rivals = std::count_if(others.begin(), others.end(),
+                                    [](const fs::path& path) { return !saysNoView(path.stem().string()); });
+  if (pairs.empty() || rivals > static_cast<std::ptrdiff_t>(pairs.size()))
+  {
+    return Recognition::no("no two names differ in left and right alone");
+  }
+  std::sort(pairs.begin(), pairs.end(), sortsPairBefore);
+  std::vector<std::string> names;
+  std::transform(pairs.begin(), pairs.end(), std::back_inserter(names),
+                 [](const Pair& pair) { return pair.name; });
+  FolderDescription description;
+  description.format = "stereo";
+  description.place_claim = PlaceClaim::TwoNumbers;
+  description.notes = leftOutNotes(others);
+  const Pair& pair = pairs[chooseFrame(names, options.frame, description)];
+  description.views = {{pair.left, {0, 0}, {}}, {pair.right, {0, 1}, {}}};
+  return description;
+}
+
+}  // namespace light_field_depth
