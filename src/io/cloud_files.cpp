@@ -1,67 +1,56 @@
 #include "light_field_depth/io/cloud_files.h"
 
 #include <cmath>
-#include <exception>
+#include <cstdint>
+#include <string>
 
-#include <pcl/io/ply_io.h>
-#include <pcl/point_types.h>
-
-#include "light_field_depth/core/error.h"
+#include "io/little_endian.h"
 #include "light_field_depth/io/files.h"
 
 namespace light_field_depth
 {
 namespace
 {
-pcl::PointCloud<pcl::PointXYZRGB> finitePoints(const std::vector<ColoredPoint>& points)
+bool isFinite(const ColoredPoint& point)
 {
-  pcl::PointCloud<pcl::PointXYZRGB> cloud;
-  cloud.reserve(points.size());
-  for (const ColoredPoint& point : points)
-  {
-    if (std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z))
-    {
-      pcl::PointXYZRGB colored;
-      colored.x = point.x;
-      colored.y = point.y;
-      colored.z = point.z;
-      colored.r = point.r;
-      colored.g = point.g;
-      colored.b = point.b;
-      cloud.push_back(colored);
-    }
-  }
-  return cloud;
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+std::string header(std::size_t points)
+{
+  return "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex " + std::to_string(points) +
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+         "property uchar blue\nend_header\n";
 }
 
 }  // namespace
 
-std::size_t writePly(const std::filesystem::path& path, const std::vector<ColoredPoint>& points)
+std::size_t writePly(const std::filesystem::path& path, const std::vector<ColoredPoint>& points,
+                     CloudAxes axes)
 {
-  const pcl::PointCloud<pcl::PointXYZRGB> cloud = finitePoints(points);
-  if (cloud.empty())
+  const float sign = axes == CloudAxes::YUp ? -1.0F : 1.0F;
+  std::string body;
+  std::size_t count = 0;
+  for (const ColoredPoint& point : points)
   {
-    return 0;  // PCL refuses to write a file without points
+    if (!isFinite(point))
+    {
+      continue;
+    }
+    ++count;
+    appendLittleEndian(body, point.x);
+    appendLittleEndian(body, sign * point.y);
+    appendLittleEndian(body, sign * point.z);
+    for (const std::uint8_t level : {point.r, point.g, point.b})
+    {
+      body += static_cast<char>(level);
+    }
   }
-  writeWhole(path,
-             [&](const std::filesystem::path& temporary)
-             {
-               int status = -1;
-               try
-               {
-                 status = pcl::io::savePLYFileBinary(temporary.string(), cloud);
-               }
-               catch (const std::exception&)
-               {
-                 status = -1;
-               }
-               if (status != 0)
-               {
-                 throw InputError("The cloud '" + path.string() +
-                                  "' cannot be written; check the folder, its permissions and the disk.");
-               }
-             });
-  return cloud.size();
+  if (count > 0)
+  {
+    writeFile(path, header(count) + body);
+  }
+  return count;
 }
 
 }  // namespace light_field_depth

@@ -61,6 +61,51 @@ std::string imageText(const cv::Mat& image)
          (image.depth() == CV_8U ? "8" : "16") + " bits, " + (image.channels() == 1 ? "grey" : "colour");
 }
 
+/// The placed views that are to be decoded; `files` keeps theirs.
+std::vector<View> chosenViews(const DatasetOptions& options, const PlacedViews& placed,
+                              std::vector<ViewFile>& files)
+{
+  LightField without_images;
+  without_images.views = placed.views;
+  const auto reference = std::find_if(placed.views.begin(), placed.views.end(),
+                                      [&](const View& view) { return view.grid == placed.reference; });
+  if (!options.selection || placed.views.size() < 2 || reference == placed.views.end())
+  {
+    return placed.views;
+  }
+  without_images.reference_index = static_cast<std::size_t>(reference - placed.views.begin());
+  const std::vector<View> chosen = selectViews(without_images, options.selection(without_images)).views;
+  std::vector<ViewFile> chosen_files;
+  for (const View& view : chosen)
+  {
+    const auto same = std::find_if(placed.views.begin(), placed.views.end(),
+                                   [&](const View& other) { return other.grid == view.grid; });
+    chosen_files.push_back(files[static_cast<std::size_t>(same - placed.views.begin())]);
+  }
+  files = std::move(chosen_files);
+  return chosen;
+}
+
+/// Where some views are in colour, the grey ones become so too. @return how many did
+std::size_t makeAllColour(std::vector<View>& views)
+{
+  const auto is_grey = [](const View& view) { return view.image.channels() == 1; };
+  const auto greys = static_cast<std::size_t>(std::count_if(views.begin(), views.end(), is_grey));
+  if (greys == 0 || greys == views.size())
+  {
+    return 0;
+  }
+  for (View& view : views)
+  {
+    if (is_grey(view))
+    {
+      const std::vector<cv::Mat> channels(3, view.image);
+      cv::merge(channels, view.image);
+    }
+  }
+  return greys;
+}
+
 void requireEqualImages(const std::vector<ViewFile>& files, const std::vector<View>& views)
 {
   for (std::size_t i = 1; i < views.size(); ++i)
@@ -74,6 +119,45 @@ void requireEqualImages(const std::vector<ViewFile>& files, const std::vector<Vi
                        "; all views must have one size and type.");
     }
   }
+}
+
+/// The camera of the options wins over that of the description, field by field.
+void applyCamera(const CameraOptions& given, FolderDescription& description)
+{
+  const bool any =
+      given.focal_length_px || given.baseline_m || given.principal_point_px || given.focus_distance_m;
+  if (!any)
+  {
+    return;
+  }
+  CameraDescription camera = description.camera.value_or(CameraDescription());
+  if (given.focal_length_px)
+  {
+    camera.focal_length_px = *given.focal_length_px;
+    camera.calibrated_width = 0;
+  }
+  if (given.principal_point_px)
+  {
+    camera.principal_point_px = given.principal_point_px;
+    camera.calibrated_width = 0;
+  }
+  if (given.baseline_m)
+  {
+    camera.baseline_m = given.baseline_m->x;
+  }
+  if (given.focus_distance_m)
+  {
+    camera.focus_distance_m = given.focus_distance_m;
+    camera.disparity_offset_px.reset();
+  }
+  const bool has_baseline = camera.baseline_m > 0.0 || description.position_unit_m;
+  if (!(camera.focal_length_px > 0.0 || camera.focal_length_per_side > 0.0) || !has_baseline)
+  {
+    throw InputError(
+        "Depth in metres needs both the focal length and the baseline, and the dataset does not state the "
+        "other one; give --focal-length and --baseline.");
+  }
+  description.camera = camera;
 }
 
 Calibration calibrationFrom(const CameraDescription& camera, const cv::Size& size, const PlacedViews& placed)
@@ -176,23 +260,34 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
   FolderDescription description = describe(folder, options);
   ViewStore store(description.views, options.threads);
   settleGrid(description, options, store);
+  if (options.camera.baseline_m)
+  {
+    description.row_step_ratio = options.camera.baseline_m->y / options.camera.baseline_m->x;
+  }
   const Layout layout = settleLayout(description, options, store);
   const PlacedViews placed = placeViews(folder, description, layout, options.reference);
+  Dataset dataset;
+  dataset.views_found = description.views.size();
+  std::vector<View> views = chosenViews(options, placed, description.views);
   store.decode(idsOf(description.views));
 
-  Dataset dataset;
   dataset.format = description.format;
   dataset.place_claim = description.place_claim;
   dataset.order = layout.order;
   dataset.flip = placed.flip;
-  std::vector<View> views = placed.views;
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     views[i].image = store.image(description.views[i].id);
     dataset.files.push_back(description.views[i].path);
   }
+  if (const std::size_t greys = makeAllColour(views))
+  {
+    description.notes.push_back(std::to_string(greys) +
+                                " grey view(s) among the coloured ones are read as colour.");
+  }
   requireEqualImages(description.views, views);
   std::optional<Calibration> calibration;
+  applyCamera(options.camera, description);
   if (description.camera)
   {
     calibration = calibrationFrom(*description.camera, views.front().image.size(), placed);

@@ -11,6 +11,9 @@ const std::vector<DatasetFormat>& datasetFormats()
 {
   static const std::vector<DatasetFormat> formats = {
       {"light_field.yaml", recognizeYaml},
+      {"lightfield.json", recognizeIdLab},
+      {"transforms.json", recognizeTransforms},
+      {"COLMAP", recognizeColmap},
       {"a folder for each camera or frame", recognizeFolders},
       {"one image with all views", recognizeImage},
       {"Middlebury's calib.txt", recognizeMiddlebury},

@@ -54,6 +54,9 @@ FolderDescription describeFolder(const std::filesystem::path& folder, const Data
 FolderDescription describeImage(const std::filesystem::path& file, const DatasetOptions& options);
 
 Recognition recognizeYaml(const FolderListing& listing, const DatasetOptions& options);
+Recognition recognizeIdLab(const FolderListing& listing, const DatasetOptions& options);
+Recognition recognizeTransforms(const FolderListing& listing, const DatasetOptions& options);
+Recognition recognizeColmap(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeMiddlebury(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeLeftRight(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeHci(const FolderListing& listing, const DatasetOptions& options);

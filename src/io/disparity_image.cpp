@@ -26,6 +26,8 @@ constexpr int LABEL_LEFT_PX = BAR_LEFT_PX + BAR_WIDTH_PX + 5;
 constexpr int LABEL_RISE_PX = 4;
 constexpr int LABEL_DISTANCE_PX = 60;
 constexpr double FONT_SCALE = 0.38;
+constexpr int CAPTION_HEIGHT_PX = 16;
+constexpr int PANEL_GAP_PX = 8;
 
 std::string label(double value_px)
 {
@@ -59,6 +61,28 @@ void drawLabels(cv::Mat& canvas, int left, int top, int height, const DisparityR
     cv::putText(canvas, label(value) + (i == 0 ? " px" : ""), {left + LABEL_LEFT_PX, y + LABEL_RISE_PX},
                 cv::FONT_HERSHEY_SIMPLEX, FONT_SCALE, cv::Scalar::all(0), 1, cv::LINE_AA);
   }
+}
+
+/// Any view in 8 bits of colour.
+cv::Mat eightBitColour(const cv::Mat& image)
+{
+  LightField single;
+  single.views.push_back(gridView(0, 0, image));
+  cv::Mat levels = toEightBit(single).views.front().image;
+  if (levels.channels() == 1)
+  {
+    cv::cvtColor(levels, levels, cv::COLOR_GRAY2BGR);
+  }
+  return levels;
+}
+
+cv::Mat withCaption(const cv::Mat& image, const std::string& caption)
+{
+  cv::Mat panel(image.rows + CAPTION_HEIGHT_PX, image.cols + PANEL_GAP_PX, CV_8UC3, cv::Scalar::all(255));
+  image.copyTo(panel(cv::Rect({0, CAPTION_HEIGHT_PX}, image.size())));
+  cv::putText(panel, caption, {2, CAPTION_HEIGHT_PX - LABEL_RISE_PX}, cv::FONT_HERSHEY_SIMPLEX, FONT_SCALE,
+              cv::Scalar::all(0), 1, cv::LINE_AA);
+  return panel;
 }
 
 }  // namespace
@@ -123,6 +147,20 @@ cv::Mat disparityWithScale(const cv::Mat& disparity, const DisparityRange& range
       .copyTo(canvas(cv::Rect(disparity.cols + BAR_LEFT_PX, top, BAR_WIDTH_PX, bar_height)));
   drawLabels(canvas, disparity.cols, top, bar_height, range);
   return canvas;
+}
+
+cv::Mat previewImage(const cv::Mat& reference, const cv::Mat& disparity, const cv::Mat& confidence)
+{
+  cv::Mat levels;
+  confidence.convertTo(levels, CV_8U, 255.0);
+  cv::cvtColor(levels, levels, cv::COLOR_GRAY2BGR);
+  cv::Mat preview;
+  cv::hconcat(
+      std::vector<cv::Mat>{withCaption(eightBitColour(reference), "reference view"),
+                           withCaption(disparityWithScale(disparity, shownRange(disparity)), "disparity"),
+                           withCaption(levels, "confidence")},
+      preview);
+  return preview;
 }
 
 }  // namespace light_field_depth

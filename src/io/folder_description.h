@@ -2,6 +2,7 @@
 #define LIGHT_FIELD_DEPTH_SRC_IO_FOLDER_DESCRIPTION_H
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,28 @@ struct ViewPart
   GridPosition cell;  ///< of this view in the grid
 };
 
+/// A pinhole camera with the distortion of OpenCV's model; the centre of the first pixel is (0, 0).
+struct Intrinsics
+{
+  cv::Size size;
+  double fx = 0.0;
+  double fy = 0.0;
+  double cx = 0.0;
+  double cy = 0.0;
+  double k1 = 0.0;
+  double k2 = 0.0;
+  double p1 = 0.0;
+  double p2 = 0.0;
+};
+
+/// What turns the image of a camera into that of the common camera of its rig.
+struct ViewWarp
+{
+  Intrinsics common;  ///< without distortion
+  Intrinsics source;
+  cv::Matx33d rotation;  ///< from the axes of the common camera to those of the source
+};
+
 /// A view before it is decoded.
 struct ViewFile
 {
@@ -44,7 +67,8 @@ struct ViewFile
   GridPosition number;                  ///< as the dataset counts; PlaceClaim::SingleNumber: {0, index}
   std::optional<cv::Point2d> position;  ///< of the camera, in any unit: x to the right, y downwards
   ViewPart part = {};
-  std::size_t id = 0;  ///< in the ViewStore
+  std::shared_ptr<const ViewWarp> warp = {};  ///< empty: the image is used as it is
+  std::size_t id = 0;                         ///< in the ViewStore
 };
 
 /// What a dataset says of its cameras.

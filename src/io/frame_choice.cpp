@@ -23,21 +23,22 @@ bool isCalled(const std::string& name, const std::string& wanted)
 
 }  // namespace
 
+std::size_t frameIndex(const std::vector<std::string>& names, const std::string& wanted)
+{
+  const auto found = std::find_if(names.begin(), names.end(),
+                                  [&](const std::string& name) { return isCalled(name, wanted); });
+  if (found == names.end())
+  {
+    throw InputError("There is no frame '" + wanted + "'; the " + std::to_string(names.size()) +
+                     " frame(s) go from '" + names.front() + "' to '" + names.back() + "'.");
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 std::size_t chooseFrame(const std::vector<std::string>& names, const std::optional<std::string>& wanted,
                         FolderDescription& description)
 {
-  std::size_t chosen = 0;
-  if (wanted)
-  {
-    const auto found = std::find_if(names.begin(), names.end(),
-                                    [&](const std::string& name) { return isCalled(name, *wanted); });
-    if (found == names.end())
-    {
-      throw InputError("There is no frame '" + *wanted + "'; the " + std::to_string(names.size()) +
-                       " frame(s) go from '" + names.front() + "' to '" + names.back() + "'.");
-    }
-    chosen = static_cast<std::size_t>(found - names.begin());
-  }
+  const std::size_t chosen = wanted ? frameIndex(names, *wanted) : 0;
   if (names.size() > 1)
   {
     description.notes.push_back("Frame '" + names[chosen] + "' of " + std::to_string(names.size()) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <string_view>
 
 #include <opencv2/imgcodecs.hpp>
@@ -14,7 +15,11 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr std::array<std::string_view, 6> EXTENSIONS = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"};
+constexpr std::array<std::string_view, 11> EXTENSIONS = {".png", ".jpg", ".jpeg", ".tif",  ".tiff", ".bmp",
+                                                         ".pgm", ".ppm", ".pnm",  ".webp", ".exr"};
+
+/// OpenCV reads and writes OpenEXR only when it is told so before the first image; what the user says wins.
+const bool OPENEXR_ALLOWED = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0) == 0;
 
 bool startsWith(std::string_view text, std::string_view beginning)
 {
@@ -44,7 +49,7 @@ cv::Mat decode(const std::string& content)
   try
   {
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
-    return cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    return cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
   }
   catch (const cv::Exception&)
   {
@@ -64,7 +69,7 @@ bool isImageFile(const std::filesystem::path& path)
 
 std::string imageFormatsText()
 {
-  return "PNG, JPEG, TIFF or BMP";
+  return "PNG, JPEG, TIFF, BMP, PGM, PPM, WebP or EXR";
 }
 
 cv::Mat readImage(const std::filesystem::path& path)
@@ -85,10 +90,10 @@ cv::Mat readImage(const std::filesystem::path& path)
     throw InputError("The image '" + path.string() + "' cannot be decoded as " + imageFormatsText() +
                      "; it is damaged or of another format.");
   }
-  if (image.depth() != CV_8U && image.depth() != CV_16U)
+  if (image.depth() != CV_8U && image.depth() != CV_16U && image.depth() != CV_32F)
   {
     throw InputError("The image '" + path.string() +
-                     "' has values that are neither 8 nor 16 bits wide; convert it.");
+                     "' has values that are neither of 8 nor of 16 bits nor single floats; convert it.");
   }
   return image;
 }

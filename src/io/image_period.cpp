@@ -96,6 +96,26 @@ double borderChange(const std::vector<double>& changes, int period)
   return at_border / static_cast<double>(borders) / (elsewhere / static_cast<double>(others));
 }
 
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The same with medians: only a border between all parts counts, not one between a few of them.
+double usualBorderChange(const std::vector<double>& changes, int period)
+{
+  std::vector<double> at_border;
+  std::vector<double> elsewhere;
+  for (std::size_t x = 0; x < changes.size(); ++x)
+  {
+    ((x + 1) % static_cast<std::size_t>(period) == 0 ? at_border : elsewhere).push_back(changes[x]);
+  }
+  const double usual = at_border.empty() || elsewhere.empty() ? 0.0 : median(elsewhere);
+  return usual > 0.0 ? median(at_border) / usual : 0.0;
+}
+
 /// How many tiles lie beside each other; 1 if there is no period.
 int tilesAlongRows(const cv::Mat& grey)
 {
@@ -165,7 +185,7 @@ std::optional<cv::Size> findLenslets(const cv::Mat& image)
     {
       continue;
     }
-    const double edge = std::min(borderChange(along_rows, side), borderChange(along_columns, side));
+    const double edge = std::min(usualBorderChange(along_rows, side), usualBorderChange(along_columns, side));
     if (edge > best_edge)
     {
       best_edge = edge;

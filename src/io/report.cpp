@@ -97,6 +97,11 @@ std::string toJson(const RunReport& report)
   json["peak_memory_mb"] = rounded(report.peak_memory_mb);
   json["photometric_error"] = orNull(report.photometric_error);
   json["photometric_error_of_medians"] = orNull(report.photometric_error_of_medians);
+  if (report.disparity_png16)
+  {
+    json["disparity_png16"] = {{"scale", report.disparity_png16->scale},
+                               {"offset", report.disparity_png16->offset}};
+  }
   json["files"] = report.files;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

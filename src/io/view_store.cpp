@@ -4,6 +4,8 @@
 #include <string>
 
 #include "io/image_period.h"
+#include "io/linear_images.h"
+#include "io/planar_rig.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/image_files.h"
 
@@ -47,6 +49,24 @@ void ViewStore::decode(const std::vector<std::size_t>& ids)
   {
     throw InputError(*failure);
   }
+  encodeFloats(wanted);
+}
+
+void ViewStore::encodeFloats(const std::vector<std::size_t>& ids)
+{
+  for (const std::size_t id : ids)
+  {
+    if (images_[id].depth() != CV_32F)
+    {
+      continue;
+    }
+    if (!white_)
+    {
+      // The first view decides for all of them, whichever are decoded first.
+      white_ = whiteOf(id == 0 || !images_[0].empty() ? images_[0] : read(views_[0]));
+    }
+    images_[id] = encodedLinear(images_[id], *white_);
+  }
 }
 
 void ViewStore::readTables(const std::vector<std::size_t>& wanted)
@@ -72,8 +92,12 @@ void ViewStore::readTables(const std::vector<std::size_t>& wanted)
 
 cv::Mat ViewStore::read(const ViewFile& view) const
 {
-  return view.part.kind == ViewPart::Kind::Whole ? readImage(view.path)
-                                                 : extractPart(tables_.at(view.path), view.part);
+  if (view.part.kind != ViewPart::Kind::Whole)
+  {
+    return extractPart(tables_.at(view.path), view.part);
+  }
+  const cv::Mat image = readImage(view.path);
+  return view.warp ? warped(image, *view.warp) : image;
 }
 
 const cv::Mat& ViewStore::image(std::size_t id)

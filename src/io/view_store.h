@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -21,7 +22,7 @@ public:
   /// Gives the views their ids. @param threads 0 takes one per processor
   ViewStore(std::vector<ViewFile>& views, int threads);
 
-  /// Decodes what is not there yet. @param ids ViewFile::id
+  /// Decodes what is not there yet; the images are CV_8U or CV_16U, grey or BGR. @param ids ViewFile::id
   /// @throw InputError of the first view that cannot be decoded
   void decode(const std::vector<std::size_t>& ids);
 
@@ -32,8 +33,11 @@ private:
   /// The files that hold more than one view, as far as they are wanted.
   void readTables(const std::vector<std::size_t>& wanted);
   cv::Mat read(const ViewFile& view) const;
+  /// Linear floats become 16 bits, with one white for all views.
+  void encodeFloats(const std::vector<std::size_t>& ids);
 
   std::vector<ViewFile> views_;
+  std::optional<float> white_;  ///< of linear floats
   std::map<std::filesystem::path, cv::Mat> tables_;
   std::vector<cv::Mat> images_;
   ThreadPool pool_;

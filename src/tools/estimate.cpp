@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <future>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -9,15 +10,12 @@
 #include <vector>
 
 #include "light_field_depth/evaluation/photometric_error.h"
-#include "light_field_depth/io/cloud_files.h"
 #include "light_field_depth/io/dataset.h"
-#include "light_field_depth/io/disparity_image.h"
 #include "light_field_depth/io/files.h"
-#include "light_field_depth/io/image_files.h"
 #include "light_field_depth/io/intermediate_files.h"
-#include "light_field_depth/io/pfm.h"
 #include "light_field_depth/io/pipeline_options_io.h"
 #include "light_field_depth/io/report.h"
+#include "tools/estimate_output.h"
 #include "tools/progress_bar.h"
 #include "tools/tool_main.h"
 
@@ -45,9 +43,14 @@ struct Arguments
   std::string grid;
   std::string tiles;
   std::string frame;
+  std::string frames;
   bool dense = false;
   int threads = 0;
   bool save_intermediate = false;
+  lfd::OutputArguments output_files;
+  std::vector<double> baseline_m;
+  std::vector<double> principal_point_px;
+  lfd::CameraOptions camera;
   std::string config;
   std::vector<std::string> settings;
 };
@@ -86,11 +89,31 @@ void declare(CLI::App& app, Arguments& arguments)
   app.add_option("--tiles", arguments.tiles, "ROWSxCOLUMNS of the views in one image");
   app.add_option("--frame", arguments.frame,
                  "number or folder of the frame of a sequence; the first by default");
+  app.add_option(
+         "--frames", arguments.frames,
+         "FIRST:LAST frames of a sequence, or all; each has its results in a folder of its name, and helps "
+         "the next one")
+      ->excludes("--frame");
   app.add_flag("--dense", arguments.dense, "also write the extra dense cloud of all views");
   app.add_option("--threads", arguments.threads, "threads to work with; 0 takes one per processor")
       ->check(CLI::Range(0, MAX_THREADS));
   app.add_flag("--save-intermediate", arguments.save_intermediate,
                "also write the results of the single stages to OUTPUT/intermediate");
+  lfd::declareOutput(app, arguments.output_files);
+  app.add_option("--focal-length", arguments.camera.focal_length_px, "pixels, for depth in metres")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--baseline", arguments.baseline_m,
+                 "metres between adjacent views, or X,Y: between columns and between rows")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->check(CLI::PositiveNumber);
+  app.add_option("--principal-point", arguments.principal_point_px,
+                 "X,Y in pixels; the image's middle by default")
+      ->delimiter(',')
+      ->expected(2);
+  app.add_option("--focus-distance", arguments.camera.focus_distance_m,
+                 "metres to the plane of zero disparity; parallel cameras by default")
+      ->check(CLI::PositiveNumber);
   app.add_option("--config", arguments.config, "YAML file of settings, as under 'options' in report.json");
   app.add_option("--set", arguments.settings, "NAME=VALUE of one setting; may be repeated");
 }
@@ -151,6 +174,16 @@ lfd::DatasetOptions makeDatasetOptions(const Arguments& arguments)
   {
     options.reference = lfd::GridPosition{arguments.reference[0], arguments.reference[1]};
   }
+  options.camera = arguments.camera;
+  if (!arguments.baseline_m.empty())
+  {
+    options.camera.baseline_m = cv::Point2d(arguments.baseline_m.front(), arguments.baseline_m.back());
+  }
+  if (!arguments.principal_point_px.empty())
+  {
+    options.camera.principal_point_px =
+        cv::Point2d(arguments.principal_point_px[0], arguments.principal_point_px[1]);
+  }
   options.order = lfd::orderOption(arguments.order);
   options.flip = lfd::flipOption(arguments.flip);
   if (!arguments.grid.empty())
@@ -205,46 +238,27 @@ private:
   static void stop(int /*signal*/) { running_pipeline->cancel(); }
 };
 
-/// @return the names of the files
-std::vector<std::string> writeResults(const fs::path& folder, const lfd::PipelineResult& result)
+/// Where the results of one frame go, and which part of the whole work it is.
+struct Frame
 {
-  std::vector<std::string> files;
-  const auto next = [&](const char* name)
-  {
-    files.emplace_back(name);
-    return folder / name;
-  };
-  const auto write_cloud = [&](const char* name, const std::vector<lfd::ColoredPoint>& points)
-  {
-    if (lfd::writePly(folder / name, points) > 0)
-    {
-      files.emplace_back(name);
-    }
-  };
-  const cv::Mat& disparity = result.estimate.disparity;
-  lfd::writePfm(next("disparity.pfm"), disparity);
-  lfd::writePfm(next("confidence.pfm"), result.estimate.confidence);
-  lfd::writeImage(next("disparity.png"), lfd::disparityWithScale(disparity, lfd::shownRange(disparity)));
-  if (!result.depth.empty())
-  {
-    lfd::writePfm(next("depth.pfm"), result.depth);
-  }
-  write_cloud("cloud.ply", result.organized_cloud);
-  write_cloud("dense_cloud.ply", result.dense_cloud);
-  files.emplace_back("report.json");
-  return files;
-}
+  fs::path output;
+  std::size_t index = 0;
+  std::size_t count = 1;
+};
 
-lfd::PipelineResult runPipeline(lfd::Pipeline& pipeline, const Arguments& arguments,
+lfd::PipelineResult runPipeline(lfd::Pipeline& pipeline, const Arguments& arguments, const Frame& frame,
                                 const lfd::LightField& light_field, const lfd::PipelineOptions& options)
 {
   const InterruptionGuard guard(pipeline);
   lfd::ProgressBar progress;
-  pipeline.setProgressSink([&](const std::string& stage, double fraction)
-                           { progress.show(stage, fraction); });
+  pipeline.setProgressSink(
+      [&](const std::string& stage, double fraction) {
+        progress.show(stage,
+                      (static_cast<double>(frame.index) + fraction) / static_cast<double>(frame.count));
+      });
   if (arguments.save_intermediate)
   {
-    const fs::path folder = fs::path(arguments.output) / "intermediate";
+    const fs::path folder = frame.output / "intermediate";
     pipeline.setIntermediateSink([folder](const std::string& name, const cv::Mat& values)
                                  { lfd::writeIntermediate(folder, name, values); });
   }
@@ -261,7 +275,7 @@ void describeInput(const std::string& input, const lfd::Dataset& dataset, lfd::R
   report.input = input;
   report.format = dataset.format;
   report.flip = toString(dataset.flip);
-  report.views_found = light_field.views.size();
+  report.views_found = dataset.views_found;
   report.reference = light_field.reference().grid;
   report.reference_file = dataset.files[light_field.reference_index].filename().string();
   report.size = light_field.size();
@@ -309,13 +323,31 @@ void printSummary(const lfd::RunReport& report, const std::string& output)
   std::cout << std::endl;
 }
 
-void estimate(const Arguments& arguments)
+/// A light field and how long it took to read it.
+struct Input
 {
-  lfd::RunReport report;
-  report.options = makeOptions(arguments);
-  const Stopwatch decode_watch;
-  const lfd::Dataset dataset = lfd::readDataset(arguments.input, makeDatasetOptions(arguments));
-  report.decode_ms = decode_watch.milliseconds();
+  lfd::Dataset dataset;
+  double decode_ms = 0.0;
+};
+
+Input readInput(const std::string& folder, lfd::DatasetOptions options, const lfd::PipelineOptions& settings)
+{
+  const Stopwatch watch;
+  options.selection = [&settings](const lfd::LightField& without_images)
+  { return lfd::viewsToRead(without_images, settings); };
+  Input input;
+  input.dataset = lfd::readDataset(folder, options);
+  input.decode_ms = watch.milliseconds();
+  return input;
+}
+
+/// Solves one light field and writes its results.
+void estimateFrame(const Arguments& arguments, const Input& input, const Frame& frame,
+                   lfd::Pipeline& pipeline, lfd::RunReport report)
+{
+  const lfd::OutputOptions output = lfd::outputOptions(arguments.output_files);
+  const lfd::Dataset& dataset = input.dataset;
+  report.decode_ms = input.decode_ms;
   describeInput(arguments.input, dataset, report);
   if (report.options.disparity_range)
   {
@@ -326,21 +358,99 @@ void estimate(const Arguments& arguments)
     report.options.disparity_range = dataset.disparity_range;
     report.range_source = lfd::RangeSource::Dataset;
   }
-  lfd::makeFolder(arguments.output);
-
-  lfd::Pipeline pipeline(arguments.threads);
+  lfd::makeFolder(frame.output);
   report.threads = pipeline.threads();
-  cv::setNumThreads(report.threads);
-  const lfd::PipelineResult result = runPipeline(pipeline, arguments, dataset.light_field, report.options);
+  const lfd::PipelineResult result =
+      runPipeline(pipeline, arguments, frame, dataset.light_field, report.options);
   lfd::ThreadPool pool(report.threads);
   describeResult(result, lfd::photometricError(dataset.light_field, result.estimate.disparity, pool), report);
 
   const Stopwatch write_watch;
-  report.files = writeResults(arguments.output, result);
+  lfd::writeResults(frame.output, result, dataset.light_field.reference().image, output, report);
   report.write_ms = write_watch.milliseconds();
   report.peak_memory_mb = lfd::peakMemoryMb();
-  lfd::writeFile(fs::path(arguments.output) / "report.json", toJson(report));
-  printSummary(report, arguments.output);
+  lfd::writeFile(frame.output / "report.json", toJson(report));
+  printSummary(report, frame.output.string());
+}
+
+/// The names of the frames from --frames among all of a sequence.
+std::vector<std::string> wantedFrames(const std::string& text, const std::vector<std::string>& names)
+{
+  if (names.empty())
+  {
+    throw lfd::InputError("--frames is given, but the input is a single light field.");
+  }
+  if (text == "all")
+  {
+    return names;
+  }
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos)
+  {
+    throw lfd::InputError("--frames is '" + text + "'; give FIRST:LAST, as in 0:99, or all.");
+  }
+  const std::size_t first = lfd::frameIndex(names, text.substr(0, colon));
+  const std::size_t last = lfd::frameIndex(names, text.substr(colon + 1));
+  if (first > last)
+  {
+    throw lfd::InputError("--frames is '" + text + "', but '" + names[first] + "' comes after '" +
+                          names[last] + "'; give the first frame first.");
+  }
+  return {names.begin() + static_cast<std::ptrdiff_t>(first),
+          names.begin() + static_cast<std::ptrdiff_t>(last) + 1};
+}
+
+/// Frame after frame; the next one is read while one is solved.
+void estimateSequence(const Arguments& arguments, lfd::DatasetOptions options, lfd::RunReport report,
+                      lfd::Pipeline& pipeline)
+{
+  Input input = readInput(arguments.input, options, report.options);
+  const std::vector<std::string> names = wantedFrames(arguments.frames, input.dataset.frames);
+  const auto read = [&](std::size_t index)
+  {
+    lfd::DatasetOptions of_frame = options;
+    of_frame.frame = names[index];
+    return readInput(arguments.input, of_frame, report.options);
+  };
+  // All frames are laid out like the first.
+  options.order = input.dataset.order;
+  options.flip = input.dataset.flip;
+  report.options.multiview.temporal = arguments.temporal.empty() || report.options.multiview.temporal;
+  if (names.front() != input.dataset.frames.front())
+  {
+    input = read(0);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    std::future<Input> next;
+    if (i + 1 < names.size())
+    {
+      next = std::async(std::launch::async, read, i + 1);
+    }
+    estimateFrame(arguments, input, {fs::path(arguments.output) / names[i], i, names.size()}, pipeline,
+                  report);
+    if (next.valid())
+    {
+      input = next.get();
+    }
+  }
+}
+
+void estimate(const Arguments& arguments)
+{
+  lfd::RunReport report;
+  report.options = makeOptions(arguments);
+  lfd::outputOptions(arguments.output_files);
+  lfd::Pipeline pipeline(arguments.threads);
+  cv::setNumThreads(pipeline.threads());
+  const lfd::DatasetOptions options = makeDatasetOptions(arguments);
+  if (!arguments.frames.empty())
+  {
+    estimateSequence(arguments, options, report, pipeline);
+    return;
+  }
+  estimateFrame(arguments, readInput(arguments.input, options, report.options), {arguments.output}, pipeline,
+                report);
 }
 
 }  // namespace

@@ -239,6 +239,25 @@ TEST(Dataset, DropsTheTruthOfAnotherReferenceAndTheRangeOfAnotherFlip)
   EXPECT_FALSE(readDataset(folder.path(), options).truth);
 }
 
+/// A broken view that is not chosen does no harm: it is not decoded.
+TEST(Dataset, DecodesOnlyTheViewsThatAreChosen)
+{
+  const TemporaryFolder folder;
+  writeGrid(folder, 5, 5,
+            [](int row, int column) { return twoDigits(row) + "_" + twoDigits(column) + ".png"; });
+  folder.write("00_00.png", "no image");
+  DatasetOptions options;
+  options.order = Order::RowMajor;
+  options.flip = Flip::None;
+  EXPECT_TRUE(says(readingError(folder.path(), options), {"00_00.png"}));
+  options.selection = [](const LightField&) { return ViewSelection::Cross; };
+  const Dataset dataset = readDataset(folder.path(), options);
+  EXPECT_EQ(dataset.views_found, 25U);
+  ASSERT_EQ(dataset.light_field.views.size(), 9U);
+  EXPECT_EQ(dataset.files.front().filename(), "00_02.png");
+  EXPECT_EQ(dataset.light_field.reference().grid, (GridPosition{2, 2}));
+}
+
 TEST(Dataset, ReadsTheSameOnAnyNumberOfThreads)
 {
   const TemporaryFolder folder;
@@ -284,8 +303,8 @@ TEST(WrongDataset, RefusesImagesThatDiffer)
 {
   const TemporaryFolder folder;
   writeView(folder, "00_00.png", 7);
-  writeView(folder, "00_01.png", 7, CV_8UC3);
-  EXPECT_TRUE(says(readingError(folder.path()), {"00_00.png", "00_01.png", "grey", "colour"}));
+  writeView(folder, "00_01.png", 7, CV_16UC3);
+  EXPECT_TRUE(says(readingError(folder.path()), {"00_00.png", "00_01.png", "8 bits", "16 bits"}));
   writeView(folder, "00_01.png", 7, CV_16UC1);
   EXPECT_TRUE(says(readingError(folder.path()), {"8 bits", "16 bits"}));
   ASSERT_TRUE(cv::imwrite((folder / "00_01.png").string(), cv::Mat::zeros(30, 40, CV_8UC1)));

@@ -134,6 +134,33 @@ TEST(RealDatasets, LytroViewsArePrefixedAndCountedFromOne)
   EXPECT_EQ(dataset.light_field.reference().grid, (GridPosition{5, 5}));
 }
 
+TEST(RealDatasets, EveryFolderIsRecognised)
+{
+  struct Folder
+  {
+    const char* path;
+    const char* format;
+    std::size_t views;
+    bool calibrated;
+  };
+  for (const Folder& folder :
+       {Folder{"lytro/general_11", "grid", 25, false}, Folder{"lytro/flowers", "grid", 100, false},
+        Folder{"array/toys", "index", 256, false}, Folder{"stereo/eth3d_playground", "middlebury", 2, true},
+        Folder{"stereo/art", "index", 2, false}})
+  {
+    if (!std::filesystem::exists(DATA / folder.path))
+    {
+      GTEST_SKIP() << DATA / folder.path << " is not here";
+    }
+    DatasetOptions options;
+    options.selection = [](const LightField&) { return ViewSelection::Row; };
+    const Dataset dataset = readDataset(DATA / folder.path, options);
+    EXPECT_EQ(dataset.format, folder.format) << folder.path;
+    EXPECT_EQ(dataset.views_found, folder.views) << folder.path;
+    EXPECT_EQ(dataset.light_field.calibration.has_value(), folder.calibrated) << folder.path;
+  }
+}
+
 /// A figure stands before a wall: its disparity must be the larger one.
 TEST(RealDatasets, StanfordFiguresAreNearerThanTheWallBehind)
 {

@@ -165,6 +165,47 @@ TEST(EstimateTool, KnowsTheNamesThatPeopleTypeAndTheLongerOnes)
   EXPECT_EQ(readFile(output / "short" / "disparity.pfm"), readFile(output / "long" / "disparity.pfm"));
 }
 
+TEST(EstimateTool, WritesEachFrameOfASequenceToItsFolder)
+{
+  const SceneFolder scene;
+  const TemporaryFolder sequence;
+  for (const char* const frame : {"frame_007", "frame_008", "frame_009"})
+  {
+    std::filesystem::copy(scene.path(), sequence / frame);
+  }
+  const TemporaryFolder output;
+  const Outcome outcome =
+      estimate(sequence.path(), output.path(), "--frames 8:9 --set multiview_preset=fast");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_FALSE(std::filesystem::exists(output / "frame_007"));
+  EXPECT_EQ(reportIn(output / "frame_008")["options"]["multiview_temporal"], true);
+  EXPECT_EQ(reportIn(output / "frame_009")["views_found"], 25);
+  EXPECT_TRUE(std::filesystem::exists(output / "frame_009/depth.pfm"));
+  EXPECT_EQ(estimate(sequence.path(), output.path(), "--frames 9:8").exit_code, 1);
+  EXPECT_EQ(estimate(scene.path(), output.path(), "--frames all").exit_code, 1);
+}
+
+TEST(EstimateTool, WritesTheFilesThatAreAskedFor)
+{
+  const SceneFolder scene(false);
+  const TemporaryFolder output;
+  const Outcome outcome = estimate(scene.path(), output.path(),
+                                   "--set multiview_preset=fast --format npy,png16 --preview --y-up "
+                                   "--focal-length 100 --baseline 0.1,0.2 --focus-distance 2.5");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* const name :
+       {"disparity.npy", "disparity_16.png", "depth_16.png", "preview.png", "cloud.ply"})
+  {
+    EXPECT_TRUE(std::filesystem::exists(output / name)) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(output / "disparity.pfm"));
+  const nlohmann::json report = reportIn(output.path());
+  EXPECT_EQ(report["disparity_png16"]["scale"], 256.0);
+  EXPECT_NEAR(report["calibration"]["disparity_offset_px"].get<double>(), 4.0, 1e-6);
+  EXPECT_EQ(estimate(scene.path(), output.path(), "--focal-length 100").exit_code, 1);
+  EXPECT_EQ(estimate(scene.path(), output.path(), "--format gif").exit_code, 1);
+}
+
 TEST(EstimateTool, GivesTheSameResultOnAnyNumberOfThreads)
 {
   const SceneFolder scene;

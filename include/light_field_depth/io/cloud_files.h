@@ -9,11 +9,19 @@
 
 namespace light_field_depth
 {
+/// The axes of the points in a file.
+enum class CloudAxes
+{
+  Optical,  ///< x to the right, y downwards, z away from the camera, as in ROS's optical frames
+  YUp       ///< x to the right, y upwards, z towards the viewer, as in Blender's and OpenGL's cameras
+};
+
 /// Writes a binary PLY with x y z in metres and red green blue; the file appears whole or not at all. Points
-/// that are not finite are left out.
+/// that are not finite are left out. The file has vertices alone, which every reader understands.
 /// @return the number of points written; where no point is finite, no file is written
 /// @throw InputError if the file cannot be written
-std::size_t writePly(const std::filesystem::path& path, const std::vector<ColoredPoint>& points);
+std::size_t writePly(const std::filesystem::path& path, const std::vector<ColoredPoint>& points,
+                     CloudAxes axes = CloudAxes::Optical);
 
 }  // namespace light_field_depth
 

@@ -2,6 +2,7 @@
 #define LIGHT_FIELD_DEPTH_IO_DATASET_H
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +58,15 @@ enum class PlaceClaim
 /// "stated", "two numbers", "single number".
 std::string toString(PlaceClaim claim);
 
+/// What is known of the cameras besides what the dataset states; it wins over that.
+struct CameraOptions
+{
+  std::optional<double> focal_length_px;
+  std::optional<cv::Point2d> baseline_m;  ///< between adjacent columns and between adjacent rows; positive
+  std::optional<cv::Point2d> principal_point_px;  ///< of the dataset's own reference view
+  std::optional<double> focus_distance_m;  ///< of the plane of zero disparity; parallel cameras if absent
+};
+
 /// How a folder is read.
 struct DatasetOptions
 {
@@ -67,7 +77,10 @@ struct DatasetOptions
   std::optional<cv::Size> grid;   ///< columns x rows of the views that one number names
   std::optional<cv::Size> tiles;  ///< columns x rows of the views in one image
   std::optional<std::string>
-      frame;        ///< of a sequence: its number, or its folder's name; the first when absent
+      frame;  ///< of a sequence: its number, or its folder's name; the first when absent
+  CameraOptions camera;
+  /// Which views to decode, chosen from the light field without images; all when empty.
+  std::function<ViewSelection(const LightField& without_images)> selection;
   int threads = 0;  ///< that decode images; 0 takes one per processor
 };
 
@@ -77,16 +90,21 @@ struct Dataset
   /// View::grid has the files' numbers, reversed where rows or columns are flipped. View::steps follow the
   /// numbers also where views are missing in between: disparities are always per step of the numbering.
   LightField light_field;
-  std::string format;                             ///< "yaml", "hci", "grid", "index", ...: docs/formats.md
-  PlaceClaim place_claim = PlaceClaim::Stated;    ///< before options and images were asked
-  Order order = Order::RowMajor;                  ///< that was applied
-  Flip flip = Flip::None;                         ///< that was applied
-  std::vector<std::filesystem::path> files;       ///< of LightField::views, in their order
+  std::string format;                           ///< "yaml", "hci", "grid", "index", ...: docs/formats.md
+  PlaceClaim place_claim = PlaceClaim::Stated;  ///< before options and images were asked
+  Order order = Order::RowMajor;                ///< that was applied
+  Flip flip = Flip::None;                       ///< that was applied
+  std::size_t views_found = 0;               ///< in the folder; DatasetOptions::selection may leave some out
+  std::vector<std::filesystem::path> files;  ///< of LightField::views, in their order
   std::optional<DisparityRange> disparity_range;  ///< as the dataset's description states it, in px per step
   std::optional<std::filesystem::path> truth;     ///< a PFM with the disparity of the reference view
-  std::vector<std::string> notes;                 ///< sentences on what was left out, guessed or converted
-  std::vector<std::string> warnings;              ///< sentences on what may make the result wrong
+  std::vector<std::string> frames;    ///< names of a sequence's frames; empty for a single light field
+  std::vector<std::string> notes;     ///< sentences on what was left out, guessed or converted
+  std::vector<std::string> warnings;  ///< sentences on what may make the result wrong
 };
+
+/// The frame of a sequence that has a name, or a number at the end of its name. @throw InputError
+std::size_t frameIndex(const std::vector<std::string>& names, const std::string& wanted);
 
 /// Recognises the format of a folder by its files (docs/formats.md has the list) and reads its views, in
 /// parallel. A file is a light field of tiles or lenslets. What is not named like a view is left out with a

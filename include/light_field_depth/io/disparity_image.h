@@ -20,6 +20,12 @@ cv::Mat colorizeDisparity(const cv::Mat& disparity, const DisparityRange& range)
 /// colorizeDisparity() with a scale at its right: a bar of the colours with the pixels that they stand for.
 cv::Mat disparityWithScale(const cv::Mat& disparity, const DisparityRange& range);
 
+/// A quick look at a result: the reference view, disparityWithScale() and the confidence beside each other.
+/// @param reference as View::image
+/// @param confidence CV_32FC1, 0 (black) to 1 (white)
+/// @return CV_8UC3
+cv::Mat previewImage(const cv::Mat& reference, const cv::Mat& disparity, const cv::Mat& confidence);
+
 }  // namespace light_field_depth
 
 #endif  // LIGHT_FIELD_DEPTH_IO_DISPARITY_IMAGE_H

@@ -8,14 +8,16 @@
 
 namespace light_field_depth
 {
-/// Whether a file's extension is one of the image formats that are read: PNG, JPEG, TIFF, BMP.
+/// Whether a file's extension is one of the image formats that are read, in upper or lower case: PNG,
+/// JPEG, TIFF, BMP, PGM and PPM, WebP, OpenEXR.
 bool isImageFile(const std::filesystem::path& path);
 
-/// "PNG, JPEG, TIFF or BMP", for messages.
+/// "PNG, JPEG, TIFF, BMP, PGM, PPM, WebP or EXR", for messages.
 std::string imageFormatsText();
 
-/// Reads a whole image without changing its values: CV_8U or CV_16U, grey or BGR; an alpha channel is
-/// dropped, an orientation tag is ignored. Thread safe.
+/// Reads a whole image without changing its values: CV_8U, CV_16U, or CV_32F for linear floats, grey or BGR;
+/// an alpha channel is dropped, a palette and CMYK become BGR, and an orientation tag turns the image
+/// upright. Thread safe.
 /// @throw InputError if the file cannot be read, is truncated or damaged, or has values of another kind
 cv::Mat readImage(const std::filesystem::path& path);
 

@@ -11,6 +11,7 @@
 #include "light_field_depth/core/light_field.h"
 #include "light_field_depth/core/pipeline.h"
 #include "light_field_depth/core/run_context.h"
+#include "light_field_depth/io/map_files.h"
 
 namespace light_field_depth
 {
@@ -48,6 +49,7 @@ struct RunReport
   double peak_memory_mb = 0.0;              ///< peakMemoryMb()
   std::optional<double> photometric_error;  ///< PhotometricError::mean
   std::optional<double> photometric_error_of_medians;  ///< PhotometricError::mean_of_medians
+  std::optional<Png16Scale> disparity_png16;           ///< of disparity_16.png
   std::vector<std::string> files;                      ///< written, relative to the output folder
 };
 

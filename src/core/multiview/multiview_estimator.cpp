@@ -56,19 +56,6 @@ bool isLarge(const LightField& light_field)
   return light_field.size().area() > LARGE_PIXELS;
 }
 
-LightField chosenViews(const LightField& light_field, ViewSelection selection)
-{
-  if (selection != ViewSelection::Auto)
-  {
-    return selectViews(light_field, selection);
-  }
-  const GridPosition centre = light_field.reference().grid;
-  const auto on_cross = std::count_if(
-      light_field.views.begin(), light_field.views.end(),
-      [&](const View& view) { return view.grid.row == centre.row || view.grid.column == centre.column; });
-  return on_cross > FEW_VIEWS ? selectViews(light_field, ViewSelection::Cross) : light_field;
-}
-
 /// Pixels of disparity of the solver in one of the light field: with the solver's, the outermost view has
 /// REFERENCE_BASELINE.
 double solverUnit(const LightField& light_field)
@@ -131,6 +118,19 @@ SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures
 
 }  // namespace
 
+ViewSelection selectionOf(const LightField& light_field, ViewSelection wanted)
+{
+  if (wanted != ViewSelection::Auto)
+  {
+    return wanted;
+  }
+  const GridPosition centre = light_field.reference().grid;
+  const auto on_cross = std::count_if(
+      light_field.views.begin(), light_field.views.end(),
+      [&](const View& view) { return view.grid.row == centre.row || view.grid.column == centre.column; });
+  return on_cross > FEW_VIEWS ? ViewSelection::Cross : ViewSelection::All;
+}
+
 /// What lives from frame to frame. `sequence` and `solver` carry the last frame's result into the next one;
 /// the others only keep memory that the next frame uses again.
 struct MultiviewEstimator::FrameMemory
@@ -155,7 +155,7 @@ MultiviewEstimator::~MultiviewEstimator() = default;
 DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, const EstimateRequest& request,
                                                RunContext& context)
 {
-  const LightField chosen = toEightBit(chosenViews(light_field, request.views));
+  const LightField chosen = toEightBit(selectViews(light_field, selectionOf(light_field, request.views)));
   const bool halved = options_.preset == MultiviewPreset::Fast &&
                       std::min(chosen.size().width, chosen.size().height) >= MIN_HALVED_SIDE_PX;
   DisparityEstimate estimate;

@@ -15,6 +15,10 @@ namespace multiview
 struct SceneMeasures;
 }  // namespace multiview
 
+/// Which views the estimator uses of those that it is asked for: the cross of a grid with a full one, unless
+/// something else is asked for. The views need no images.
+ViewSelection selectionOf(const LightField& light_field, ViewSelection wanted);
+
 /// Solves the views of a light field together: truncated matching costs over arms of views, four-path
 /// aggregation, explicit visibility, a decision on edge pixels by colour, and a refinement that linearises
 /// all views at once. Works on any array of views.

@@ -132,6 +132,12 @@ std::vector<std::string> validate(const PipelineOptions& options)
   return problems;
 }
 
+ViewSelection viewsToRead(const LightField& light_field, const PipelineOptions& options)
+{
+  // The volumes of the method of 2017 may lie anywhere.
+  return options.method == Method::Multiview ? selectionOf(light_field, options.views) : ViewSelection::All;
+}
+
 Pipeline::Pipeline(int threads) : pool_(threads)
 {
   pool_.setCancellation(&cancellation_);

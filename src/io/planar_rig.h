@@ -1,0 +1,42 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_IO_PLANAR_RIG_H
+#define LIGHT_FIELD_DEPTH_SRC_IO_PLANAR_RIG_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "io/folder_description.h"
+
+namespace light_field_depth
+{
+/// A calibrated image that may stand and look anywhere.
+struct PosedImage
+{
+  std::filesystem::path path;
+  Intrinsics intrinsics;
+  /// From the camera's axes (x to the right, y downwards, z forwards) to the world's.
+  cv::Matx33d rotation = cv::Matx33d::eye();
+  cv::Vec3d centre;  ///< in the world
+};
+
+/// The nearest rotation to a matrix that may be scaled or rounded. @throw InputError if it mirrors or is flat
+cv::Matx33d nearestRotation(const cv::Matx33d& matrix, const std::string& name);
+
+/// The image that a frame's name stands for: with or without its ending, beside the description or in a
+/// folder for images. Empty if there is none.
+std::filesystem::path findFrame(const std::filesystem::path& folder, const std::string& name);
+
+/// The images of cameras on a common plane, warped to look along its normal with one focal length.
+/// @param unit_m metres of the positions' unit
+/// @throw InputError that says how far from a plane the cameras stand, or which one looks elsewhere
+FolderDescription describeRig(const std::filesystem::path& folder, const std::vector<PosedImage>& images,
+                              double unit_m);
+
+/// An image as the common camera of its rig would see it; black where it does not reach.
+cv::Mat warped(const cv::Mat& image, const ViewWarp& warp);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_IO_PLANAR_RIG_H
