@@ -18,6 +18,7 @@
 #include "light_field_depth/core/disparity_range.h"
 #include "light_field_depth/core/exposure.h"
 #include "light_field_depth/core/noise_estimate.h"
+#include "light_field_depth/core/registration.h"
 
 namespace light_field_depth
 {
@@ -235,13 +236,23 @@ LightField MultiviewEstimator::measure(const LightField& views, const EstimateRe
     small = halved ? memory_->measured_half.reduceInColour(views, context.pool) : views;
     measures.exposures = estimateExposure(small, context.pool, range_options.max_displacement_px);
     chosen = compensateExposure(views, measures.exposures, context.pool);
+    small = compensateExposure(small, measures.exposures, context.pool);
   }
   {
     const StageTimer timer(context, "range");
-    measures.range = request.disparity_range
-                         ? *request.disparity_range
-                         : findDisparityRange(compensateExposure(small, measures.exposures, context.pool),
-                                              context.pool, range_options);
+    measures.range = request.disparity_range ? *request.disparity_range
+                                             : findDisparityRange(small, context.pool, range_options);
+  }
+  {
+    const StageTimer timer(context, "registration");
+    // Arrays that are calibrated are taken at their word.
+    if (!views.calibration)
+    {
+      RegistrationOptions registration_options;
+      registration_options.pixel_size = halved ? 2.0 : 1.0;
+      measures.registration = estimateRegistration(small, measures.range, context.pool, registration_options);
+      chosen = correctRegistration(chosen, measures.registration, context.pool);
+    }
   }
   const StageTimer timer(context, "noise");
   measures.noise_sigma = measuredNoise(chosen, measures.range, context.pool);
@@ -323,6 +334,10 @@ bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& 
   {
     const StageTimer timer(context, "exposure");
     chosen = compensateExposure(views, here.exposures, context.pool);
+  }
+  {
+    const StageTimer timer(context, "registration");
+    chosen = correctRegistration(chosen, here.registration, context.pool);
   }
   {
     const StageTimer timer(context, "noise");

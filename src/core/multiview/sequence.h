@@ -10,6 +10,7 @@
 #include "light_field_depth/core/exposure.h"
 #include "light_field_depth/core/light_field.h"
 #include "light_field_depth/core/multiview_options.h"
+#include "light_field_depth/core/registration.h"
 
 namespace light_field_depth::multiview
 {
@@ -18,6 +19,7 @@ namespace light_field_depth::multiview
 struct SceneMeasures
 {
   std::vector<ViewExposure> exposures;  ///< one for each view
+  Registration registration;            ///< that was corrected; neutral for calibrated light fields
   DisparityRange range;                 ///< in pixels per grid step
   float noise_sigma = 0.0F;             ///< in 8-bit units
 };

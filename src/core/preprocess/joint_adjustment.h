@@ -1,0 +1,40 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_JOINT_ADJUSTMENT_H
+#define LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_JOINT_ADJUSTMENT_H
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/registration.h"
+#include "light_field_depth/core/thread_pool.h"
+
+namespace light_field_depth
+{
+/// A pixel of the reference and its disparity.
+struct AdjustedPoint
+{
+  cv::Point pixel;
+  float disparity = 0.0F;
+};
+
+/// What adjustJointly() starts from and improves. Pixels are those of the views.
+struct Adjustment
+{
+  std::vector<AdjustedPoint> points;
+  double step_ratio = 1.0;
+  std::vector<ViewMisfit> views;  ///< of all views, the reference's stays 0
+};
+
+/// Gauss-Newton steps for the disparities of the points, the misfits of all views and the ratio of steps
+/// together, on the differences between each view and the reference at the points, reweighted robustly. The
+/// disparities are eliminated (Schur complement), so that few steps suffice although each view alone could be
+/// explained by them.
+/// @param light_field 8-bit grey views
+/// @param expected_px how far views are off, standard deviation; holds what the images do not tell
+void adjustJointly(const LightField& light_field, double expected_px, int steps, ThreadPool& pool,
+                   Adjustment& adjustment);
+
+}  // namespace light_field_depth
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_JOINT_ADJUSTMENT_H
