@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_CORE_DISPARITY_RANGE_H
 #define LIGHT_FIELD_DEPTH_CORE_DISPARITY_RANGE_H
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,9 @@ namespace light_field_depth
 /// Settings of findDisparityRange(). The defaults hold for dense plenoptic views and for sparse arrays.
 struct DisparityRangeOptions
 {
-  /// How far a point may move between the reference view and the view nearest to it, in pixels. Raise it for
-  /// arrays with wider baselines; time and the danger of false matches grow with it. Never more than two
-  /// fifths of the side along which the view moves.
+  /// How far a point may move between the reference view and the view nearest to it, in pixels, as far as the
+  /// search looks first; but never more than two fifths of the side along which the view moves, and a quarter
+  /// of it towards the near side of a pair. Where what it finds reaches that bound, it looks further.
   float max_displacement_px = 48.0F;
 
   /// The range is widened on both sides by the larger of this fraction of its width and of pad_labels. Raise
@@ -24,6 +25,10 @@ struct DisparityRangeOptions
   /// In units of what the search resolves: one pixel of displacement in the farthest view for views of 512
   /// pixels, two for views of 1024.
   float pad_labels = 0.8F;
+
+  /// The disparity of a point at infinity where the geometry is known, see Calibration::disparity_offset_px:
+  /// nothing is farther. Left aside where the bulk of the pixels contradicts it.
+  std::optional<float> farthest_px;
 };
 
 /// One whole sentence for each field that cannot be used.
@@ -32,10 +37,12 @@ std::vector<std::string> validate(const DisparityRangeOptions& options);
 /// Finds the disparities that occur in the reference view, from the images alone.
 ///
 /// The views are compared in two plane sweeps at reduced resolution: one over everything that
-/// max_displacement_px allows, with the view nearest to the reference in each direction; one over what that
-/// left, with the farther views, which also measures the ends of the range. A disparity belongs to the range
-/// if a connected patch of pixels is explained clearly better by it than by every disparity inside the range,
-/// so that repeated texture, noise and surfaces without texture do not widen it.
+/// max_displacement_px allows, with the view nearest to the reference in each direction, and again with wider
+/// bounds where it finds something at their ends; one over what that left, with the farther views, which also
+/// measures the ends of the range. A disparity belongs to the range if a connected patch of pixels is
+/// explained clearly better by it than by every disparity inside the range, so that repeated texture, noise
+/// and surfaces without texture do not widen it. Where the reference has one other view beside it, pixels
+/// count that both views match to each other, and patches near the bulk of the range.
 ///
 /// @param light_field of any type; brightness may differ a little between views (see core/exposure.h)
 /// @return in pixels per grid step, widened as the options say; a narrow range about zero where no pixel of

@@ -11,7 +11,7 @@
 namespace light_field_depth
 {
 /// How the brightness of one view departs from that of the reference view:
-///   reference = gain[c] * (1 + shading . (u, v, u^2 + v^2)) * value + offset[c]
+///   reference = gain[c] * (1 + shading . (u, v, u^2 + v^2)) * value + offset[c] + bend[c] * value^2 / 255
 /// for what both views see of the same scene point. (u, v) is the pixel in this view, relative to the middle
 /// of the view in units of half its diagonal.
 struct ViewExposure
@@ -19,6 +19,7 @@ struct ViewExposure
   bool differs = false;        ///< false: cannot be told from the reference; everything else is then neutral
   cv::Vec3d gain{1, 1, 1};     ///< for each channel of the view in its order; grey views use the first
   cv::Vec3d offset{0, 0, 0};   ///< in 8-bit units
+  cv::Vec3d bend{0, 0, 0};     ///< another tone curve; in pairs of views only, where a line fits badly
   cv::Vec3d shading{0, 0, 0};  ///< vignetting that differs from the reference's, common to all channels
 };
 

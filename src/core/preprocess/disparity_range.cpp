@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -11,7 +12,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/preprocess/label_support.h"
+#include "core/preprocess/mutual_matches.h"
 #include "core/preprocess/plane_sweep.h"
+#include "core/preprocess/search_bounds.h"
 #include "core/preprocess/sweep_views.h"
 
 namespace light_field_depth
@@ -29,6 +32,12 @@ constexpr float SMALL_OBJECT_LABELS = 2.0F;
 constexpr float SMALL_OBJECT_FRACTION = 0.25F;
 /// The third sweep looks this many labels beyond what the second found, which could not resolve more.
 constexpr float MARGIN_LABELS = 1.5F;
+
+/// The nearest object of a pair is often a small one, and the range of a pair is wide, so that single labels
+/// of the reduced images are large: the near end is widened by this.
+constexpr float PAIR_PAD_FRACTION = 0.15F;
+constexpr DisparityRange NOTHING_RESOLVED = {std::numeric_limits<float>::max(),
+                                             std::numeric_limits<float>::lowest()};
 
 /// Noise makes the ends of the range uncertain by this much.
 constexpr float PAD_LABELS_OF_NOISE = 0.5F;
@@ -65,17 +74,15 @@ public:
 
   DisparityRange find(const DisparityRangeOptions& options)
   {
-    const float most = largestDisparity(arms_, options.max_displacement_px);
-    range_ = {-most, most};
-    sweep(Views::Nearest, coarse_halvings_);
+    const DisparityRange bounds = sweepWithinBounds(options.max_displacement_px);
     if (found_ && fine_halvings_ < coarse_halvings_)
     {
-      widen(std::max(SMALL_OBJECT_LABELS * step_, SMALL_OBJECT_FRACTION * (range_.max - range_.min)), most);
+      widen(std::max(SMALL_OBJECT_LABELS * step_, SMALL_OBJECT_FRACTION * (range_.max - range_.min)), bounds);
       sweep(Views::Nearest, fine_halvings_);
     }
     if (farthest_ > 1.5 * nearest_)
     {
-      widen(MARGIN_LABELS * step_, most);
+      widen(MARGIN_LABELS * step_, bounds);
       const DisparityRange wide = range_;
       sweep(Views::Farther, coarse_halvings_);
       range_ = wide;
@@ -87,7 +94,12 @@ public:
     }
     const float pad_labels = options.pad_labels + (noisy_ ? PAD_LABELS_OF_NOISE : 0.0F);
     const float pad = std::max(options.pad_fraction * (range_.max - range_.min), pad_labels * step_);
-    return {range_.min - pad, range_.max + pad};
+    DisparityRange padded = {range_.min - pad, range_.max + pad};
+    if (isPair(arms_))
+    {
+      padded.max = std::max(padded.max, (1.0F + PAIR_PAD_FRACTION) * range_.max);
+    }
+    return notBeyond(options.farthest_px, padded);
   }
 
 private:
@@ -130,6 +142,11 @@ private:
                       });
   }
 
+  static float labelStep(int halvings, double reach)
+  {
+    return LABEL_DISPLACEMENT / (static_cast<float>(std::ldexp(1.0, -halvings)) * static_cast<float>(reach));
+  }
+
   PlaneSweep planSweep(Views which, int halvings) const
   {
     const auto scale = static_cast<float>(std::ldexp(1.0, -halvings));
@@ -153,7 +170,7 @@ private:
       }
       plan.arms.push_back(std::move(sweep_arm));
     }
-    plan.disparity_step = LABEL_DISPLACEMENT / (scale * static_cast<float>(reach));
+    plan.disparity_step = labelStep(halvings, reach);
     const float centre = 0.5F * (range_.min + range_.max);
     const int half = static_cast<int>(std::ceil(0.5F * (range_.max - range_.min) / plan.disparity_step));
     plan.labels = 2 * half + 1;
@@ -161,10 +178,43 @@ private:
     return plan;
   }
 
-  void widen(float margin, float most)
+  /// The first sweep, and again as often as its bounds turn out to be too narrow.
+  /// @return the bounds that were wide enough
+  DisparityRange sweepWithinBounds(float max_displacement_px)
   {
-    range_.min = std::max(range_.min - margin, -most);
-    range_.max = std::min(range_.max + margin, most);
+    const float label_step = labelStep(coarse_halvings_, nearest_);
+    SearchBounds bounds(arms_, max_displacement_px, label_step);
+    range_ = bounds.range();
+    sweep(Views::Nearest, coarse_halvings_);
+    while (found_ && bounds.widenFor(core_, label_step))
+    {
+      forget();
+      range_ = bounds.range();
+      sweep(Views::Nearest, coarse_halvings_);
+    }
+    return bounds.range();
+  }
+
+  void forget()
+  {
+    resolved_ = NOTHING_RESOLVED;
+    found_ = false;
+  }
+
+  void widen(float margin, const DisparityRange& bounds)
+  {
+    range_.min = std::max(range_.min - margin, bounds.min);
+    range_.max = std::min(range_.max + margin, bounds.max);
+  }
+
+  /// The range without what lies behind infinity, if only its margin does.
+  DisparityRange notBeyond(const std::optional<float>& farthest, DisparityRange range) const
+  {
+    if (farthest && found_ && core_.min >= *farthest - step_ && range.max > *farthest + step_)
+    {
+      range.min = std::max(range.min, *farthest);
+    }
+    return range;
   }
 
   /// Narrows range_ to what is supported inside it.
@@ -172,7 +222,9 @@ private:
   {
     const PlaneSweep plan = planSweep(which, halvings);
     const SweepCosts volume = sweepPlanes(plan, pool_);
-    const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_);
+    const std::vector<std::uint8_t> trusted =
+        isPair(arms_) ? findMutualMatches(plan, volume, pool_) : std::vector<std::uint8_t>();
+    const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_, trusted);
     if (!support)
     {
       return;
@@ -180,9 +232,23 @@ private:
     step_ = plan.disparity_step;
     resolved_.min = std::min(resolved_.min, plan.disparity(static_cast<float>(support->core.first) + 0.5F));
     resolved_.max = std::max(resolved_.max, plan.disparity(static_cast<float>(support->core.last) - 0.5F));
+    core_ = {plan.disparity(static_cast<float>(support->core.first)),
+             plan.disparity(static_cast<float>(support->core.last))};
     range_.min = std::min(resolved_.min, plan.disparity(static_cast<float>(support->all.first)));
     range_.max = std::max(resolved_.max, plan.disparity(static_cast<float>(support->all.last)));
+    if (isPair(arms_))
+    {
+      stayNearCore();
+    }
     found_ = true;
+  }
+
+  /// What a single view says of small patches is often wrong where nothing contradicts it.
+  void stayNearCore()
+  {
+    const float margin = SMALL_OBJECT_FRACTION * (core_.max - core_.min) + SMALL_OBJECT_LABELS * step_;
+    range_.min = std::max(range_.min, core_.min - margin);
+    range_.max = std::min(range_.max, core_.max + margin);
   }
 
   ThreadPool& pool_;
@@ -193,9 +259,10 @@ private:
   double farthest_ = 0.0;
   std::vector<SmallView> small_;  ///< the reference, then the views of the arms in order
   DisparityRange range_;
+  DisparityRange core_;  ///< the bulk of it, in the last sweep
   /// What some sweep was sure of but for its resolution: noise may hide at a fine scale what stood out at a
   /// coarse one.
-  DisparityRange resolved_{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+  DisparityRange resolved_ = NOTHING_RESOLVED;
   float step_ = 0.0F;
   bool found_ = false;
   bool noisy_ = false;

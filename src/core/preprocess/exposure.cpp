@@ -10,7 +10,9 @@
 #include "core/preprocess/exposure_fit.h"
 #include "core/preprocess/exposure_views.h"
 #include "core/preprocess/label_support.h"
+#include "core/preprocess/mutual_matches.h"
 #include "core/preprocess/plane_sweep.h"
+#include "core/preprocess/search_bounds.h"
 #include "core/preprocess/sweep_views.h"
 #include "light_field_depth/core/error.h"
 
@@ -59,13 +61,14 @@ public:
   std::vector<ViewExposure> find()
   {
     const std::vector<Match> matches = findMatches();
+    const ExposureModel model = isPair(arms_) ? ExposureModel::Curve : ExposureModel::Line;
     std::vector<ViewExposure> exposures(small_.size());
     forEachView(
         [&](std::size_t i)
         {
           if (i != light_field_.reference_index)
           {
-            exposures[i] = fitExposure(collectPairs(i, matches), small_[i].channels());
+            exposures[i] = fitExposure(collectPairs(i, matches), small_[i].channels(), model);
           }
         });
     return exposures;
@@ -100,36 +103,68 @@ private:
     return {normalized_[index], cv::Point2f(view.steps) * scale_, cv::Point2f(view.offset_px) * scale_};
   }
 
+  float labelStep(double reach) const { return LABEL_DISPLACEMENT / (scale_ * static_cast<float>(reach)); }
+
   PlaneSweep planSweep(const DisparityRange& range, double reach) const
   {
     PlaneSweep plan;
     plan.reference = normalized_[light_field_.reference_index];
-    plan.disparity_step = LABEL_DISPLACEMENT / (scale_ * static_cast<float>(reach));
+    plan.disparity_step = labelStep(reach);
     plan.first_disparity = range.min;
     plan.labels = 1 + static_cast<int>(std::ceil((range.max - range.min) / plan.disparity_step));
     return plan;
   }
 
-  std::vector<Match> findMatches() const
+  /// What the nearest views say.
+  struct NearSweep
   {
-    const float most = largestDisparity(arms_, max_displacement_px_);
-    const double nearest = nearestDistance(arms_);
-    PlaneSweep plan = planSweep({-most, most}, nearest);
+    PlaneSweep plan;
+    SweepCosts volume;
+    std::vector<std::uint8_t> trusted;  ///< see findSupportedLabels()
+    std::optional<LabelSupport> support;
+
+    DisparityRange supported() const
+    {
+      return {plan.disparity(static_cast<float>(support->core.first)),
+              plan.disparity(static_cast<float>(support->core.last))};
+    }
+  };
+
+  NearSweep sweepNearest(const DisparityRange& range, double nearest) const
+  {
+    NearSweep sweep;
+    sweep.plan = planSweep(range, nearest);
     for (const AxisArm& arm : arms_)
     {
-      plan.arms.push_back({sweepView(*arm.front())});
+      sweep.plan.arms.push_back({sweepView(*arm.front())});
     }
-    const SweepCosts volume = sweepPlanes(plan, pool_);
-    std::vector<Match> matches = likelyMatches(plan, volume);
+    sweep.volume = sweepPlanes(sweep.plan, pool_);
+    if (isPair(arms_))
+    {
+      sweep.trusted = findMutualMatches(sweep.plan, sweep.volume, pool_);
+    }
+    sweep.support = findSupportedLabels(sweep.volume, pool_, sweep.trusted);
+    return sweep;
+  }
+
+  std::vector<Match> findMatches() const
+  {
+    const double nearest = nearestDistance(arms_);
+    SearchBounds bounds(arms_, max_displacement_px_, labelStep(nearest));
+    NearSweep sweep = sweepNearest(bounds.range(), nearest);
+    while (sweep.support && bounds.widenFor(sweep.supported(), sweep.plan.disparity_step))
+    {
+      sweep = sweepNearest(bounds.range(), nearest);
+    }
+    const std::optional<LabelSupport>& support = sweep.support;
     const double farthest = farthestDistance(arms_);
-    const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_);
     if (!support || farthest < 1.5 * nearest)
     {
-      return matches;
+      return likelyMatches(sweep.plan, sweep.volume, sweep.trusted);
     }
-    plan = planSweep({plan.disparity(static_cast<float>(support->core.first) - 1.0F),
-                      plan.disparity(static_cast<float>(support->core.last) + 1.0F)},
-                     farthest);
+    PlaneSweep plan = planSweep({sweep.plan.disparity(static_cast<float>(support->core.first) - 1.0F),
+                                 sweep.plan.disparity(static_cast<float>(support->core.last) + 1.0F)},
+                                farthest);
     for (const AxisArm& arm : arms_)
     {
       SweepArm sweep_arm;
@@ -142,9 +177,10 @@ private:
     return likelyMatches(plan, sweepPlanes(plan, pool_));
   }
 
-  std::vector<Match> likelyMatches(const PlaneSweep& plan, const SweepCosts& volume) const
+  std::vector<Match> likelyMatches(const PlaneSweep& plan, const SweepCosts& volume,
+                                   const std::vector<std::uint8_t>& trusted = {}) const
   {
-    const std::vector<float> labels = findLikelyLabels(volume, pool_);
+    const std::vector<float> labels = findLikelyLabels(volume, pool_, trusted);
     std::vector<Match> matches;
     for (std::size_t i = 0; i < labels.size(); ++i)
     {

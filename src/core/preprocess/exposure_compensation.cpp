@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -35,15 +36,58 @@ struct RowFactors
   std::vector<float> offset;
 };
 
+/// What ViewExposure::offset and bend make of each level of a channel.
+using LevelTable = std::array<float, 256>;
+
+LevelTable levelsOf(const ViewExposure& exposure, int channel)
+{
+  constexpr double WHITE = 255.0;
+  LevelTable levels;
+  for (std::size_t level = 0; level < levels.size(); ++level)
+  {
+    const auto value = static_cast<double>(level);
+    levels[level] =
+        static_cast<float>(exposure.offset[channel] + exposure.bend[channel] * value * value / WHITE);
+  }
+  return levels;
+}
+
+/// The same as exposeBytes() with a table for each channel in place of the offset.
+void bendBytes(const std::uint8_t* value, const RowFactors& factors, float shading,
+               const std::vector<LevelTable>& tables, std::uint8_t* to)
+{
+  const std::size_t channels = tables.size();
+  std::size_t channel = 0;
+  for (std::size_t byte = 0; byte < factors.gain.size(); ++byte)
+  {
+    const float gain = factors.along_row[byte] + shading * factors.gain[byte];
+    to[byte] = cv::saturate_cast<std::uint8_t>(static_cast<float>(value[byte]) * gain +
+                                               tables[channel][value[byte]]);
+    channel = channel + 1 < channels ? channel + 1 : 0;
+  }
+}
+
 cv::Mat compensated(const cv::Mat& image, const ViewExposure& exposure)
 {
   const double half_diagonal = 0.5 * std::hypot(image.cols, image.rows);
+  const bool is_bent = exposure.bend != cv::Vec3d();
+  std::vector<LevelTable> tables;
+  for (int channel = 0; is_bent && channel < image.channels(); ++channel)
+  {
+    tables.push_back(levelsOf(exposure, channel));
+  }
   const RowFactors factors(exposure, image.cols, image.channels(), half_diagonal);
   cv::Mat result(image.size(), image.type());
   for (int y = 0; y < image.rows; ++y)
   {
     const double v = (y - 0.5 * (image.rows - 1)) / half_diagonal;
     const double shading = v * (exposure.shading[1] + v * exposure.shading[2]);
+    if (is_bent)
+    {
+      bendBytes(image.ptr<std::uint8_t>(y), factors, static_cast<float>(shading), tables,
+                result.ptr<std::uint8_t>(y));
+      continue;
+    }
     const ExposureRow row = {factors.along_row.data(), factors.gain.data(), factors.offset.data(),
                              static_cast<float>(shading)};
     exposeBytes(image.ptr<std::uint8_t>(y), row, factors.gain.size(), result.ptr<std::uint8_t>(y));

@@ -12,6 +12,7 @@ namespace
 {
 /// Fewer pairs tell nothing.
 constexpr std::size_t MIN_PAIRS = 64;
+constexpr double WHITE = 255.0;
 
 using Column = std::vector<double>;
 
@@ -104,11 +105,12 @@ void forEachMisfit(const ViewExposure& exposure, const PairTable& pairs, const C
 {
   const double gain = exposure.gain[static_cast<int>(channel)];
   const double offset = exposure.offset[static_cast<int>(channel)];
+  const double bend = exposure.bend[static_cast<int>(channel)] / WHITE;
   const Column& reference = pairs.reference[channel];
   const Column& other = pairs.other[channel];
   for (std::size_t i = 0; i < pairs.count; ++i)
   {
-    body(i, reference[i] - (gain * shading[i] * other[i] + offset));
+    body(i, reference[i] - ((gain * shading[i] + bend * other[i]) * other[i] + offset));
   }
 }
 
@@ -244,11 +246,12 @@ double rootMeanSquareChange(const ViewExposure& exposure, const PairTable& pairs
   {
     const double gain = exposure.gain[static_cast<int>(channel)];
     const double offset = exposure.offset[static_cast<int>(channel)];
+    const double bend = exposure.bend[static_cast<int>(channel)] / WHITE;
     const Column& other = pairs.other[channel];
     sum += sumOf(pairs.count,
                  [&](std::size_t i)
                  {
-                   const double change = gain * shading[i] * other[i] + offset - other[i];
+                   const double change = (gain * shading[i] + bend * other[i]) * other[i] + offset - other[i];
                    return change * change;
                  });
   }
@@ -267,9 +270,91 @@ bool isClear(const ViewExposure& exposure, const PairTable& pairs)
              MAX_SHARE_OF_MISFIT * quantile(misfitsOf(ViewExposure{}, pairs), MEDIAN);
 }
 
+/// Offset, gain and bend of a channel by least squares, the bend drawn towards none.
+void fitCurve(const PairTable& pairs, const Column& shading, std::size_t channel, ViewExposure& exposure)
+{
+  /// As much evidence for a line as this many pairs would be, each of full brightness.
+  constexpr double PRIOR_PAIRS = 0.05;
+  const Column& reference = pairs.reference[channel];
+  const Column& other = pairs.other[channel];
+  std::array<Column, 3> terms;
+  terms[0].assign(pairs.count, 1.0);
+  terms[1].resize(pairs.count);
+  terms[2].resize(pairs.count);
+  std::transform(shading.begin(), shading.end(), other.begin(), terms[1].begin(), std::multiplies<>());
+  std::transform(other.begin(), other.end(), terms[2].begin(),
+                 [](double level) { return level * level / WHITE; });
+  cv::Matx33d normal;
+  cv::Vec3d right;
+  for (int i = 0; i < 3; ++i)
+  {
+    const Column& row = terms.at(static_cast<std::size_t>(i));
+    right[i] = dot(row, reference);
+    for (int j = 0; j <= i; ++j)
+    {
+      normal(i, j) = normal(j, i) = dot(row, terms.at(static_cast<std::size_t>(j)));
+    }
+  }
+  normal(2, 2) += PRIOR_PAIRS * WHITE * WHITE;
+  const cv::Vec3d found = normal.solve(right, cv::DECOMP_CHOLESKY);
+  const int c = static_cast<int>(channel);
+  exposure.offset[c] = found[0];
+  exposure.gain[c] = found[1];
+  exposure.bend[c] = found[2];
+}
+
+/// Brighter stays brighter.
+bool isRising(const ViewExposure& exposure, std::size_t channels)
+{
+  constexpr double LEAST_SLOPE = 0.05;
+  for (int channel = 0; channel < static_cast<int>(channels); ++channel)
+  {
+    const double at_black = exposure.gain[channel];
+    const double at_white = at_black + 2.0 * exposure.bend[channel];
+    if (!(std::min(at_black, at_white) > LEAST_SLOPE))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// A curve for the same pairs, beginning with a line through them.
+ViewExposure bent(const PairTable& pairs, const ViewExposure& line)
+{
+  constexpr int ROUNDS = 5;
+  constexpr double KEPT_FRACTION = 0.6;
+  ViewExposure curve = line;
+  PairTable fitting = pairs;
+  for (int round = 0; round < ROUNDS && fitting.count > MIN_PAIRS / 2; ++round)
+  {
+    fitShading(fitting, curve);
+    const Column shading = shadingAt(curve, fitting);
+    for (std::size_t channel = 0; channel < pairs.reference.size(); ++channel)
+    {
+      fitCurve(fitting, shading, channel, curve);
+    }
+    fitting = pairs;
+    leaveOutWorst(curve, KEPT_FRACTION, fitting);
+  }
+  return curve;
+}
+
+/// The curve instead of the line, where it fits clearly better.
+ViewExposure bentWhereNeeded(const PairTable& pairs, const ViewExposure& line)
+{
+  constexpr double MAX_SHARE_OF_MISFIT = 0.9;
+  constexpr double MEDIAN = 0.5;
+  ViewExposure curve = bent(pairs, line);
+  curve.differs = isRising(curve, pairs.reference.size()) && isClear(curve, pairs);
+  const bool better = !line.differs || quantile(misfitsOf(curve, pairs), MEDIAN) <
+                                           MAX_SHARE_OF_MISFIT * quantile(misfitsOf(line, pairs), MEDIAN);
+  return curve.differs && better ? curve : line;
+}
+
 }  // namespace
 
-ViewExposure fitExposure(const std::vector<BrightnessPair>& pairs, int channels)
+ViewExposure fitExposure(const std::vector<BrightnessPair>& pairs, int channels, ExposureModel model)
 {
   constexpr int ROUNDS = 3;
   constexpr double KEPT_FRACTION_OF_ROUND = 0.8;
@@ -287,6 +372,10 @@ ViewExposure fitExposure(const std::vector<BrightnessPair>& pairs, int channels)
     fit(fitting, exposure);
   }
   exposure.differs = isClear(exposure, table);
+  if (model == ExposureModel::Curve)
+  {
+    exposure = bentWhereNeeded(table, exposure);
+  }
   return exposure.differs ? exposure : ViewExposure{};
 }
 

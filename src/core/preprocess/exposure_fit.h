@@ -18,10 +18,19 @@ struct BrightnessPair
   cv::Vec2f place;
 };
 
+/// What the brightness of the other view may differ by.
+enum class ExposureModel
+{
+  Line,  ///< no ViewExposure::bend
+  Curve
+};
+
 /// The exposure that explains most of the pairs.
 /// @param channels 1 or 3; of the values that count
+/// @param model with Curve, a line is still taken where it fits about as well
 /// @return a neutral one if the pairs are too few or too alike, or need no change
-ViewExposure fitExposure(const std::vector<BrightnessPair>& pairs, int channels);
+ViewExposure fitExposure(const std::vector<BrightnessPair>& pairs, int channels,
+                         ExposureModel model = ExposureModel::Line);
 
 /// (u, v, u^2 + v^2), which ViewExposure::shading is multiplied with.
 inline cv::Vec3d shadingTerms(double u, double v)

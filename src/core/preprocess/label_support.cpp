@@ -303,6 +303,19 @@ LabelRange widen(const LabelRange& core, const SweepCosts& volume, const Winners
   return supported;
 }
 
+/// Makes pixels that do not count uncertain of everything.
+void distrust(const std::vector<std::uint8_t>& trusted, Winners& winners)
+{
+  for (std::size_t i = 0; i < trusted.size(); ++i)
+  {
+    if (trusted[i] == 0)
+    {
+      winners.cost[i] = NO_COST;
+      winners.rival[i] = NO_COST;
+    }
+  }
+}
+
 /// Of the parabola through the costs of the best label and its neighbours.
 float vertexOfCost(const SweepCosts& volume, int label, std::size_t pixel)
 {
@@ -321,9 +334,11 @@ float vertexOfCost(const SweepCosts& volume, int label, std::size_t pixel)
 
 }  // namespace
 
-std::vector<float> findLikelyLabels(const SweepCosts& volume, ThreadPool& pool)
+std::vector<float> findLikelyLabels(const SweepCosts& volume, ThreadPool& pool,
+                                    const std::vector<std::uint8_t>& trusted)
 {
-  const Winners winners = findWinners(volume, pool);
+  Winners winners = findWinners(volume, pool);
+  distrust(trusted, winners);
   constexpr std::uint16_t SLIGHT_NOISE = SWEEP_COST_PER_GREY_LEVEL;
   const Contrast contrast(SLIGHT_NOISE);
   std::vector<float> labels(volume.area(), std::numeric_limits<float>::quiet_NaN());
@@ -337,10 +352,12 @@ std::vector<float> findLikelyLabels(const SweepCosts& volume, ThreadPool& pool)
   return labels;
 }
 
-std::optional<LabelSupport> findSupportedLabels(const SweepCosts& volume, ThreadPool& pool)
+std::optional<LabelSupport> findSupportedLabels(const SweepCosts& volume, ThreadPool& pool,
+                                                const std::vector<std::uint8_t>& trusted)
 {
-  const Winners winners = findWinners(volume, pool);
+  Winners winners = findWinners(volume, pool);
   const Contrast contrast(median(winners.cost));
+  distrust(trusted, winners);
   const std::optional<LabelRange> core = coreOf(countCertain(winners, contrast, volume.labels, pool));
   if (!core)
   {

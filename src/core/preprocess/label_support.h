@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_LABEL_SUPPORT_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_LABEL_SUPPORT_H
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -29,12 +30,15 @@ struct LabelSupport
 /// the certain pixels makes the core of the range; connected patches of pixels outside it widen the range if
 /// they are certain, too, or if their best label costs clearly less than every label of the core. So neither
 /// noise nor repeated texture widens it, and a small object does.
+/// @param trusted not 0 for each pixel that counts; empty: all do
 /// @return nothing if hardly any pixel is certain
-std::optional<LabelSupport> findSupportedLabels(const SweepCosts& volume, ThreadPool& pool);
+std::optional<LabelSupport> findSupportedLabels(const SweepCosts& volume, ThreadPool& pool,
+                                                const std::vector<std::uint8_t>& trusted = {});
 
 /// For each pixel that would be certain of its best label if there were little noise, that label, refined
 /// between labels; NaN for the others. For those who want many and can bear a few wrong ones.
-std::vector<float> findLikelyLabels(const SweepCosts& volume, ThreadPool& pool);
+std::vector<float> findLikelyLabels(const SweepCosts& volume, ThreadPool& pool,
+                                    const std::vector<std::uint8_t>& trusted = {});
 
 }  // namespace light_field_depth
 

@@ -84,18 +84,24 @@ double farthestDistance(const std::vector<AxisArm>& arms)
   return farthest;
 }
 
-float largestDisparity(const std::vector<AxisArm>& arms, float max_displacement_px)
+float disparityOfFraction(const std::vector<AxisArm>& arms, double fraction_of_side)
 {
-  constexpr double MAX_FRACTION_OF_SIDE = 0.4;
-  double most = max_displacement_px / nearestDistance(arms);
+  double most = std::numeric_limits<double>::max();
   for (const AxisArm& arm : arms)
   {
     const View& nearest = *arm.front();
     const bool horizontal = std::abs(nearest.steps.x) >= std::abs(nearest.steps.y);
     const int side = horizontal ? nearest.image.cols : nearest.image.rows;
-    most = std::min(most, MAX_FRACTION_OF_SIDE * side / distanceOf(nearest));
+    most = std::min(most, fraction_of_side * side / distanceOf(nearest));
   }
   return static_cast<float>(most);
+}
+
+float largestDisparity(const std::vector<AxisArm>& arms, float max_displacement_px)
+{
+  constexpr double MAX_FRACTION_OF_SIDE = 0.4;
+  return std::min(static_cast<float>(max_displacement_px / nearestDistance(arms)),
+                  disparityOfFraction(arms, MAX_FRACTION_OF_SIDE));
 }
 
 int halvingsFor(const cv::Size& size, int side_px)

@@ -28,6 +28,9 @@ double farthestDistance(const std::vector<AxisArm>& arms);
 /// but in no direction by more than two fifths of the side of the nearest view there.
 float largestDisparity(const std::vector<AxisArm>& arms, float max_displacement_px);
 
+/// The disparity at which points move by this fraction of the side, in no direction by more.
+float disparityOfFraction(const std::vector<AxisArm>& arms, double fraction_of_side);
+
 /// How often a view is halved before its longer side would be less than side_px.
 int halvingsFor(const cv::Size& size, int side_px);
 

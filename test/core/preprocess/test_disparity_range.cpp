@@ -112,6 +112,39 @@ TEST(DisparityRange, HoldsForAPairARowAndAColumn)
   }
 }
 
+TEST(DisparityRange, OfAPairReachesFarBeyondThatOfArrays)
+{
+  const auto scene = render(60.0, 105.0, gridPositions(1, 2), {512, 160});
+  const LightField pair = makeLightField(scene.light_field.views, GridPosition{0, 0});
+  const cv::Mat truth = scene.light_field.reference_index == 0 ? scene.truth : cv::Mat();
+  ASSERT_FALSE(truth.empty());
+  ThreadPool pool(2);
+  const DisparityRange range = findDisparityRange(pair, pool);
+  EXPECT_GE(coveredPercentage(range, truth), 99.8) << range.min << " .. " << range.max;
+  EXPECT_GE(range.min, 35.0F);
+  EXPECT_LE(range.max, 140.0F);
+}
+
+TEST(DisparityRange, IsWidenedWhereItReachesItsBound)
+{
+  const auto scene = render(25.0, 75.0, gridPositions(1, 3), {400, 160});
+  ThreadPool pool(2);
+  expectTight(findDisparityRange(scene.light_field, pool), scene.truth, 15.0);
+}
+
+TEST(DisparityRange, EndsAtInfinityWhereThatIsKnown)
+{
+  const auto scene = render(0.5, 8.0, gridPositions(1, 3), {256, 192});
+  ThreadPool pool(2);
+  DisparityRangeOptions options;
+  EXPECT_LT(findDisparityRange(scene.light_field, pool, options).min, 0.0F);
+  options.farthest_px = 0.0F;
+  EXPECT_EQ(findDisparityRange(scene.light_field, pool, options).min, 0.0F);
+  // Images that contradict it are believed.
+  options.farthest_px = 5.0F;
+  EXPECT_LT(findDisparityRange(scene.light_field, pool, options).min, 0.5F);
+}
+
 TEST(DisparityRange, IsMeasuredInGridSteps)
 {
   auto scene = render(-1.0, 1.5, crossPositions(5, 5), {256, 192});

@@ -85,6 +85,41 @@ TEST(Exposure, FindsGainOffsetAndWhiteBalance)
   }
 }
 
+TEST(Exposure, RecoversAnotherToneCurveOfAPair)
+{
+  constexpr double GAMMA = 1.35;
+  constexpr double WHITE = 255.0;
+  const auto degrade = [](const GridPosition& grid, cv::Mat& values)
+  {
+    if (grid == GridPosition{0, 1})
+    {
+      cv::pow(cv::max(values, 0.0) / WHITE, GAMMA, values);
+      values = values * (0.95 * WHITE) + cv::Scalar::all(4.0);
+    }
+  };
+  const LightField degraded = standardScene(testing::gridPositions(1, 2), degrade).light_field;
+  const LightField expected = standardScene(testing::gridPositions(1, 2)).light_field;
+  ThreadPool pool(2);
+  const std::vector<ViewExposure> exposures = estimateExposure(degraded, pool);
+  EXPECT_TRUE(exposures[1].differs);
+  EXPECT_LT(exposures[1].bend[1], -0.02);
+  const LightField compensated = compensateExposure(degraded, exposures, pool);
+  EXPECT_GT(largestDifference(degraded, expected), 10.0);
+  EXPECT_LT(largestDifference(compensated, expected), 2.0);
+}
+
+TEST(Exposure, OfMoreViewsStaysALine)
+{
+  for (const NamedScene& scene : {testing::exposureDifferences(), testing::vignetting()})
+  {
+    ThreadPool pool(2);
+    for (const ViewExposure& exposure : estimateExposure(scene.render().light_field, pool))
+    {
+      EXPECT_EQ(exposure.bend, cv::Vec3d()) << scene.name;
+    }
+  }
+}
+
 TEST(Exposure, UndoesWhatTheNamedScenesDoToTheirViews)
 {
   for (NamedScene scene : {testing::exposureDifferences(), testing::vignetting()})
