@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
 
 #include "core/light_field/half_resolution.h"
 #include "core/light_field/view_set.h"
+#include "core/multiview/maps/left_right_check.h"
 #include "core/multiview/maps/upsampling.h"
 #include "core/multiview/maps/view_maps.h"
 #include "core/multiview/noise.h"
+#include "core/multiview/pair.h"
 #include "core/multiview/sequence.h"
 #include "core/multiview/solver.h"
 #include "core/preprocess/even_exposure.h"
@@ -57,6 +60,29 @@ bool isLarge(const LightField& light_field)
   return light_field.size().area() > LARGE_PIXELS;
 }
 
+LightField chosenViews(const LightField& light_field, ViewSelection selection)
+{
+  if (selection != ViewSelection::Auto)
+  {
+    return selectViews(light_field, selection);
+  }
+  const GridPosition centre = light_field.reference().grid;
+  const auto on_cross = std::count_if(
+      light_field.views.begin(), light_field.views.end(),
+      [&](const View& view) { return view.grid.row == centre.row || view.grid.column == centre.column; });
+  return on_cross > FEW_VIEWS ? selectViews(light_field, ViewSelection::Cross) : light_field;
+}
+
+/// Of a point at infinity, where no shear and no guess hides it.
+std::optional<float> farthestDisparity(const LightField& light_field)
+{
+  if (light_field.calibration && light_field.calibration->disparity_offset_px == 0.0)
+  {
+    return 0.0F;
+  }
+  return std::nullopt;
+}
+
 /// Pixels of disparity of the solver in one of the light field: with the solver's, the outermost view has
 /// REFERENCE_BASELINE.
 double solverUnit(const LightField& light_field)
@@ -95,6 +121,9 @@ float measuredNoise(const LightField& light_field, const DisparityRange& range, 
 
 /// @param unit from solverUnit()
 SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures& measures, double unit)
+/// @param light_field in pixels of disparity, of which the solver has `unit` times as many
+SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures& measures,
+                              const LightField& light_field, double unit)
 {
   const MultiviewOptions options = withPresetNumbers(given);
   SolverSettings settings;
@@ -114,6 +143,10 @@ SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures
   settings.smoothing.strength = options.refinement_smoothness;
   settings.detect_changes = options.temporal;
   adaptToNoise(measures.noise_sigma, settings);
+  if (multiview::isPair(light_field))
+  {
+    multiview::adaptToPair(settings);
+  }
   return settings;
 }
 
@@ -140,9 +173,12 @@ struct MultiviewEstimator::FrameMemory
   multiview::Solver solver;         ///< its last map is where a frame that follows is searched
   multiview::Solver coarse_solver;  ///< of large light fields at half the resolution
   multiview::HalfResolution half;   ///< what the preset `fast` solves
-  multiview::HalfResolution quarter;        ///< what the preset `fast` measures
-  multiview::HalfResolution measured_half;  ///< what the others measure
-  multiview::HalfResolution coarse_half;    ///< what coarse_solver solves
+  multiview::HalfResolution quarter;         ///< what the preset `fast` measures
+  multiview::HalfResolution measured_half;   ///< what the others measure
+  multiview::HalfResolution coarse_half;     ///< what coarse_solver solves
+  multiview::HalfResolution turned_half;     ///< a pair as its other view sees it
+  multiview::HalfResolution turned_quarter;  ///< the same of a large pair
+  multiview::Solver turned_solver;
   std::vector<ViewDisparity> view_maps;
 };
 
@@ -211,11 +247,12 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
   }
   else
   {
-    const SolverSettings settings = solverSettings(options_, measures, unit);
+    const SolverSettings settings = solverSettings(options_, measures, chosen, unit);
     memory_->solver.run(inSolverUnit(chosen, unit), settings, context);
   }
   estimate.range = measures.range;
   keepResult(unit, estimate);
+  confirmPair(chosen, measures, context, estimate);
   if (options_.temporal && !large)
   {
     memory_->sequence.begin(std::move(measures));
@@ -229,6 +266,7 @@ LightField MultiviewEstimator::measure(const LightField& views, const EstimateRe
   const bool halved = isMeasuredHalved(views.size());
   DisparityRangeOptions range_options;
   range_options.max_displacement_px *= halved ? 0.5F : 1.0F;
+  range_options.farthest_px = farthestDisparity(views);
   LightField chosen;
   LightField small;
   {
@@ -308,14 +346,14 @@ void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const Scene
   const LightField half = memory_->coarse_half.reduce(chosen, context.pool);
   const double half_unit = solverUnit(half);
   multiview::Solver& coarse_solver = memory_->coarse_solver;
-  coarse_solver.run(inSolverUnit(half, half_unit), solverSettings(coarse_options, measures, half_unit),
+  coarse_solver.run(inSolverUnit(half, half_unit), solverSettings(coarse_options, measures, half, half_unit),
                     context);
   DisparityEstimate coarse;
   coarse_solver.disparity().convertTo(coarse.disparity, CV_32F, 1.0 / half_unit);
   coarse.confidence = coarse_solver.confidence();
   upsample(chosen.reference().image, context, coarse);
   const double unit = solverUnit(chosen);
-  memory_->solver.runNear(inSolverUnit(chosen, unit), solverSettings(options, measures, unit),
+  memory_->solver.runNear(inSolverUnit(chosen, unit), solverSettings(options, measures, chosen, unit),
                           coarse.disparity * unit, context);
 }
 
@@ -344,12 +382,14 @@ bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& 
     here.noise_sigma = measuredNoise(chosen, here.range, context.pool);
   }
   const double unit = solverUnit(chosen);
-  if (!memory_->solver.follow(inSolverUnit(chosen, unit), solverSettings(options_, here, unit), context))
+  if (!memory_->solver.follow(inSolverUnit(chosen, unit), solverSettings(options_, here, chosen, unit),
+                              context))
   {
     return false;
   }
   estimate.range = here.range;
   keepResult(unit, estimate);
+  confirmPair(chosen, here, context, estimate);
   memory_->sequence.keep();
   return true;
 }
@@ -358,6 +398,37 @@ void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) co
 {
   memory_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
   estimate.confidence = memory_->solver.confidence().clone();
+}
+
+/// Where only two views tell the depth, a map of the other view tells which pixels both agree on; the rest is
+/// filled from behind. The other map is made at half the resolution, which is enough to tell.
+void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasures& measures,
+                                     RunContext& context, DisparityEstimate& estimate)
+{
+  const cv::Size size = chosen.size();
+  if (!multiview::isPair(chosen) || std::min(size.width, size.height) < MIN_HALVED_SIDE_PX)
+  {
+    return;
+  }
+  MultiviewOptions options = withPresetNumbers(options_);
+  options.temporal = false;
+  options.refinements = std::min(options.refinements, 1);
+  LightField turned = memory_->turned_half.reduceInColour(multiview::turnedRound(chosen), context.pool);
+  if (isLarge(chosen))
+  {
+    turned = memory_->turned_quarter.reduceInColour(turned, context.pool);
+  }
+  const double unit = solverUnit(turned);
+  multiview::Solver& solver = memory_->turned_solver;
+  solver.run(inSolverUnit(turned, unit), solverSettings(options, measures, turned, unit), context);
+  const StageTimer timer(context, "left_right_check");
+  const View& other = multiview::otherView(chosen);
+  const cv::Mat unconfirmed =
+      multiview::findUnconfirmed(estimate.disparity, other, solver.disparity() / unit, {}, context.pool);
+  multiview::fillFromBackground(chosen.reference().image, unconfirmed,
+                                std::abs(other.steps.y) > std::abs(other.steps.x), {}, context.pool,
+                                estimate.disparity);
+  estimate.confidence.setTo(0.0F, unconfirmed);
 }
 
 void MultiviewEstimator::upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate)

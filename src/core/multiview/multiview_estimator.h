@@ -47,6 +47,8 @@ private:
   void solveCoarseToFine(const LightField& chosen, const multiview::SceneMeasures& measures,
                          RunContext& context);
   void keepResult(double unit, DisparityEstimate& estimate) const;
+  void confirmPair(const LightField& chosen, const multiview::SceneMeasures& measures, RunContext& context,
+                   DisparityEstimate& estimate);
   void upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate);
 
   MultiviewOptions options_;

@@ -1,0 +1,144 @@
+#include "core/multiview/maps/left_right_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+namespace light_field_depth::multiview
+{
+namespace
+{
+constexpr float WALL = 2.0F;
+constexpr float BOX = 10.0F;
+const cv::Size SIZE(96, 64);
+const cv::Rect BOX_AREA(40, 16, 24, 32);
+
+cv::Mat leftMap()
+{
+  cv::Mat map(SIZE, CV_32FC1, cv::Scalar(WALL));
+  map(BOX_AREA).setTo(BOX);
+  return map;
+}
+
+/// As the right view sees it, a point of disparity d at x - d.
+cv::Mat rightMap()
+{
+  cv::Mat map(SIZE, CV_32FC1, cv::Scalar(WALL));
+  map(BOX_AREA - cv::Point(static_cast<int>(BOX), 0)).setTo(BOX);
+  return map;
+}
+
+/// What the right view cannot see: a strip as wide as the change of disparity beside the box, and one that
+/// has left its image.
+cv::Mat hidden()
+{
+  cv::Mat mask = cv::Mat::zeros(SIZE, CV_8UC1);
+  constexpr int strip = static_cast<int>(BOX - WALL);
+  mask(cv::Rect(BOX_AREA.x - strip, BOX_AREA.y, strip, BOX_AREA.height)).setTo(255);
+  mask.colRange(0, static_cast<int>(WALL)).setTo(255);
+  return mask;
+}
+
+View rightView()
+{
+  View view;
+  view.steps = {1.0, 0.0};
+  return view;
+}
+
+int disagreements(const cv::Mat& a, const cv::Mat& b)
+{
+  return cv::countNonZero(a != b);
+}
+
+TEST(LeftRightCheck, MarksWhatTheOtherViewCannotSee)
+{
+  ThreadPool pool(2);
+  EXPECT_EQ(disagreements(findUnconfirmed(leftMap(), rightView(), rightMap(), {}, pool), hidden()), 0);
+}
+
+TEST(LeftRightCheck, TakesAMapOfHalfTheSize)
+{
+  cv::Mat half;
+  cv::resize(rightMap(), half, {}, 0.5, 0.5, cv::INTER_NEAREST);
+  ThreadPool pool(2);
+  const cv::Mat marked = findUnconfirmed(leftMap(), rightView(), half, {}, pool);
+  EXPECT_LE(disagreements(marked, hidden()), 2 * BOX_AREA.height);
+}
+
+TEST(LeftRightCheck, IsMeasuredInPixelsOfDisplacement)
+{
+  // The same displacements in a wider unit of disparity.
+  constexpr double UNIT = 4.0;
+  View other = rightView();
+  other.steps *= UNIT;
+  ThreadPool pool(2);
+  const cv::Mat marked = findUnconfirmed(leftMap() / UNIT, other, rightMap() / UNIT, {}, pool);
+  EXPECT_EQ(disagreements(marked, hidden()), 0);
+}
+
+TEST(LeftRightCheck, DoesNotBelieveSmallRegions)
+{
+  // Both maps agree on a patch of 6 x 6 pixels, as repeated texture makes them.
+  constexpr float CHANCE = 6.0F;
+  const cv::Rect patch(80, 20, 6, 6);
+  cv::Mat left = leftMap();
+  cv::Mat right = rightMap();
+  left(patch).setTo(CHANCE);
+  right(patch - cv::Point(static_cast<int>(CHANCE), 0)).setTo(CHANCE);
+  ThreadPool pool(2);
+  LeftRightSettings settings;
+  EXPECT_EQ(cv::countNonZero(findUnconfirmed(left, rightView(), right, settings, pool)(patch)), patch.area());
+  settings.min_region_px = patch.area();
+  EXPECT_EQ(cv::countNonZero(findUnconfirmed(left, rightView(), right, settings, pool)(patch)), 0);
+}
+
+TEST(BackgroundFill, TakesTheFartherSide)
+{
+  cv::Mat image(SIZE, CV_8UC3, cv::Scalar(40, 90, 60));
+  image(BOX_AREA).setTo(cv::Scalar(200, 60, 180));
+  cv::Mat map = leftMap();
+  map.setTo(BOX, hidden());  // the foreground has spread
+  ThreadPool pool(2);
+  fillFromBackground(image, hidden(), false, {}, pool, map);
+  EXPECT_EQ(disagreements(map, leftMap()), 0);
+}
+
+TEST(BackgroundFill, FillsColumnsAsRows)
+{
+  cv::Mat image(SIZE, CV_8UC1);
+  cv::RNG random(5);
+  random.fill(image, cv::RNG::UNIFORM, 0, 255);
+  cv::Mat map = leftMap();
+  cv::Mat noise(SIZE, CV_32FC1);
+  random.fill(noise, cv::RNG::UNIFORM, -0.4, 0.4);
+  map += noise;
+  cv::Mat turned = map.t();
+  ThreadPool pool(2);
+  fillFromBackground(image, hidden(), false, {}, pool, map);
+  fillFromBackground(image.t(), hidden().t(), true, {}, pool, turned);
+  EXPECT_EQ(disagreements(map, turned.t()), 0);
+}
+
+TEST(BackgroundFill, ReachesRowsWithoutAnyValueAndLeavesAMapWithoutAnyAsItIs)
+{
+  const cv::Mat image(SIZE, CV_8UC1, cv::Scalar(80));
+  cv::Mat marked = hidden();
+  marked.rowRange(0, 5).setTo(255);
+  cv::Mat map(SIZE, CV_32FC1, cv::Scalar(WALL));
+  map.setTo(BOX, marked);
+  ThreadPool pool(2);
+  fillFromBackground(image, marked, false, {}, pool, map);
+  EXPECT_EQ(cv::norm(map, cv::Mat(SIZE, CV_32FC1, cv::Scalar(WALL)), cv::NORM_INF), 0.0);
+
+  const cv::Mat all(SIZE, CV_8UC1, cv::Scalar(255));
+  cv::Mat unknown(SIZE, CV_32FC1, cv::Scalar(BOX));
+  fillFromBackground(image, all, false, {}, pool, unknown);
+  EXPECT_EQ(cv::norm(unknown, cv::Mat(SIZE, CV_32FC1, cv::Scalar(BOX)), cv::NORM_INF), 0.0);
+}
+
+}  // namespace
+}  // namespace light_field_depth::multiview
