@@ -44,7 +44,7 @@ struct FrameProducts
   Calibration calibration;
   float min_confidence = 0.0F;
   PipelineResult result;
-  sensor_msgs::PointCloud2Ptr points2;       ///< null when the subscribers does not want it
+  sensor_msgs::PointCloud2Ptr points2;       ///< null when nobody listens to it
   sensor_msgs::PointCloud2Ptr points_dense;  ///< likewise
   sensor_msgs::CameraInfoConstPtr info;      ///< of the reference view; may be null
 };
@@ -61,7 +61,7 @@ public:
 
   Subscribers subscribers() const;
 
-  /// Publishes what the subscribers of this frame listens to, all but the stats.
+  /// Publishes what the subscribers of this frame listen to, all but the stats.
   void publish(const FrameProducts& products) const;
 
   void publish(const LightFieldDepthStats& stats) const;

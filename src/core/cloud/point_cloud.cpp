@@ -12,7 +12,10 @@ namespace light_field_depth
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
+/// Rows of one part of VoxelMerger. Set by hand; the order of sums, and so the last bits of a point, depend
+/// on it.
 constexpr int ROWS_PER_MERGED_BAND = 8;
 
 /// The camera of one view as the unprojection needs it, in the frame of the reference view.

@@ -8,6 +8,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Views of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int VIEWS_PER_CHUNK = 1;
 
 void halveInGrey(const cv::Mat& image, cv::Mat& half)

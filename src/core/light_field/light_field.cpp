@@ -15,6 +15,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Set by hand; tests solve views of this size.
 constexpr int MIN_VIEW_SIDE_PX = 16;
 
 constexpr EnumNames<ViewSelection, 6> SELECTION_NAMES = {{

@@ -13,11 +13,13 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Steps of 45 degrees: rows, columns and diagonals of a grid have one each.
 constexpr int DIRECTIONS = 8;
 /// Of each direction; the rest is left out, evenly.
 constexpr int MAX_VIEWS_PER_ARM = 8;
 /// Room for the taps of an interpolation and for vectors that run over the end of a row.
 constexpr int SAMPLING_MARGIN_PX = 8;
+/// A cache line, and the widest vector.
 constexpr std::size_t ROW_ALIGNMENT = 64;
 
 int directionOf(const cv::Point2d& steps)

@@ -8,6 +8,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Bytes hold labels plus VISIBILITY_BIAS; below MAX_VISIBILITY_LABELS.
 constexpr int MAX_LABELS = 240;
 /// A later search tries the labels that the one before found within so many pixels of a tile, and so many
 /// more.
@@ -67,7 +68,7 @@ bool Solver::solve(const SolverSettings& settings, SearchIn where, RunContext& c
   disparity_.copyTo(searched_);
   context.save("multiview_searched", searched_);
   refine(settings, context);
-  judge(settings, context);
+  rateConfidence(settings, context);
   return true;
 }
 
@@ -129,7 +130,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
       cost_builder_.buildFromVisible(views_, labels_, bands_, surfaces_, cost, context.pool, volume_);
       if (settings.fuse_background)
       {
-        background_.hold(context.pool, volume_);
+        background_.chargeMoved(context.pool, volume_);
       }
     }
     if (pass + 1 == settings.visibility_passes)
@@ -256,6 +257,7 @@ void Solver::linearize(const SolverSettings& settings, RunContext& context)
 }
 
 void Solver::judge(const SolverSettings& settings, RunContext& context)
+void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
 {
   if (settings.refinements == 0)
   {

@@ -97,6 +97,7 @@ private:
   void refine(const SolverSettings& settings, RunContext& context);
   void linearize(const SolverSettings& settings, RunContext& context);
   void judge(const SolverSettings& settings, RunContext& context);
+  void rateConfidence(const SolverSettings& settings, RunContext& context);
   const PlanarImage& guide() const
   {
     return colour_reference_.width() > 0 ? colour_reference_ : views_.reference;

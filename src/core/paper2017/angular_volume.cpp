@@ -142,6 +142,7 @@ std::vector<AngularVolume> pairsWithReference(const LightField& light_field)
 /// Views that stand at one place, which calibrated arrays may have, show no disparity between them.
 void dropCoincidentViews(const LightField& light_field, AngularVolume& volume)
 {
+  /// Above rounding errors of steps, far below one step.
   constexpr double SAME_PLACE_STEPS = 1e-6;
   auto& indices = volume.view_indices;
   const auto coincident = [&](std::size_t a, std::size_t b)

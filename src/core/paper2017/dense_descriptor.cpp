@@ -57,6 +57,7 @@ void gradientRow(const cv::Mat& image, int y, std::vector<float>& gx, std::vecto
 /// Spreads a gradient over the bins by the third power of the cosine to each bin's direction.
 void orientationRow(const std::vector<float>& gx, const std::vector<float>& gy, float* bins)
 {
+  /// cos 45 degrees.
   constexpr float DIAGONAL = 0.70710678F;
   constexpr float TINY = 1e-6F;
   const auto cube = [](float value) { return value * value * value; };

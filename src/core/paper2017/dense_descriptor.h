@@ -15,6 +15,7 @@ namespace light_field_depth
 class DescriptorImage
 {
 public:
+  /// SIFT (Lowe 2004): 4 x 4 cells of 8 orientations; 2 px apart as in CPM (Hu et al. 2016).
   static constexpr int ORIENTATIONS = 8;
   static constexpr int CELLS_PER_SIDE = 4;
   static constexpr int CELL_SPACING_PX = 2;

@@ -11,6 +11,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
 /// Mean deviation from the median, in pixels per grid step, at which the confidence has fallen to 1/e.
 constexpr float SPREAD_SCALE_PX = 0.15F;

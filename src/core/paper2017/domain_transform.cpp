@@ -9,6 +9,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Of the paper's colour difference; a grey image counts three times.
 constexpr int COLOR_CHANNELS = 3;
 
 int colorDifference(const std::uint8_t* a, const std::uint8_t* b, int channels)

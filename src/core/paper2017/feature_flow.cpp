@@ -14,6 +14,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;
 /// Weight below which a value is known by no match.
 constexpr float UNKNOWN_WEIGHT = 1e-6F;

@@ -51,6 +51,7 @@ std::vector<SparseDisparity> estimatesOf(const VolumeMatches& matches, MatchDire
 /// The range of all but a few values, so that single outliers do not count.
 DisparityRange rangeOf(const cv::Mat& disparity)
 {
+  // Set by hand; the range is told to the user and to the colours of an image only.
   constexpr double OUTLIERS_PER_SIDE = 0.001;
   constexpr float NARROWEST_PX = 0.01F;
   std::vector<float> values(disparity.begin<float>(), disparity.end<float>());

@@ -7,6 +7,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 64;
 /// Keeps a pixel without data and without links from dividing by zero.
 constexpr float TINY = 1e-12F;

@@ -15,6 +15,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
 constexpr float PSI_EPSILON_SQUARED = 1e-6F;
 /// Added to the squared gradients that normalise the data term, in grey levels.

@@ -72,12 +72,12 @@ void checkRange(const DisparityRange& range, const LightField& light_field)
   }
 }
 
-/// The caller's room, or that of a vector.
-PointAllocator roomOr(const PointAllocator& room, std::vector<ColoredPoint>& points)
+/// The caller's allocator, or that of a vector.
+PointAllocator allocatorOr(const PointAllocator& allocator, std::vector<ColoredPoint>& points)
 {
-  if (room)
+  if (allocator)
   {
-    return room;
+    return allocator;
   }
   return [&points](std::size_t count)
   {
@@ -179,13 +179,13 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
     const StageTimer timer(context, "cloud");
     const std::size_t count = estimate.disparity.total();
     unprojectReference(light_field, estimate.disparity, estimate.confidence, options.min_confidence, pool_,
-                       roomOr(request.organized_cloud_allocator, result.organized_cloud)(count));
+                       allocatorOr(request.organized_cloud_allocator, result.organized_cloud)(count));
   }
   if (request.dense_cloud)
   {
     const StageTimer timer(context, "dense_cloud");
     denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_,
-               roomOr(request.dense_cloud_allocator, result.dense_cloud));
+               allocatorOr(request.dense_cloud_allocator, result.dense_cloud));
     result.estimate.view_disparities.clear();  // so that the next frame may have their memory
   }
 }

@@ -124,6 +124,7 @@ HWY_INLINE hn::Vec<Tag> sumAlongRow(Tag tag, const Element* middle)
   return sum;
 }
 
+/// 9 x 9 pixels.
 constexpr float SHARE_OF_WINDOW = 1.0F / 81.0F;
 
 void deviationRowSimd(const RowsAbout<std::uint8_t, 9>& rows, int width, std::uint16_t* memory,

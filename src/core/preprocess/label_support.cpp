@@ -27,6 +27,7 @@ struct Winners
 };
 
 constexpr std::uint16_t NO_COST = std::numeric_limits<std::uint16_t>::max();
+/// Pixels of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int PIXELS_PER_CHUNK = 4096;
 /// Labels nearer than this to the winner belong to the same minimum; 1.5 pixels of displacement.
 constexpr int RIVAL_DISTANCE = 3;

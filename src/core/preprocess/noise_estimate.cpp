@@ -12,7 +12,9 @@ namespace light_field_depth
 {
 namespace
 {
+/// Set by hand: the mean of 64 responses is good to about a tenth, and calm blocks are found between texture.
 constexpr int BLOCK_PX = 8;
+/// Two blocks.
 constexpr int MIN_SIDE_PX = 16;
 /// Between black and white, with room for noise on both sides.
 constexpr double DARKEST_LEVEL = 12.0;
@@ -107,6 +109,7 @@ float estimateNoise(const cv::Mat& image)
   // E|mask| = 6 sigma sqrt(2 / pi) for white noise; the calmest tenth of the blocks is lower than the mean.
   constexpr double NORM_OF_MASK = 6.0;
   constexpr double CALM_TO_MEAN = 1.23;
+  /// Of a number that is uniform over one grey level.
   constexpr double VARIANCE_OF_ROUNDING = 1.0 / 12.0;
   double sum = 0.0;
   for (const std::vector<Block>& blocks : measureBlocks(image))

@@ -12,6 +12,7 @@ namespace light_field_depth
 namespace
 {
 constexpr int WINDOW_SIDE = 2 * SWEEP_WINDOW_RADIUS + 1;
+/// 1/32 pixel: a sixteenth of a label (LABEL_DISPLACEMENT).
 constexpr int FRACTION_BITS = 5;
 static_assert(SWEEP_FRACTIONS == 1 << FRACTION_BITS, "whole pixels and fractions are split by a shift");
 
@@ -144,6 +145,7 @@ private:
 
 SweepCosts sweepPlanes(const PlaneSweep& sweep, ThreadPool& pool)
 {
+  /// Labels of one task. Set by hand: enough tasks for every thread; results do not depend on it.
   constexpr int LABELS_PER_CHUNK = 1;
   SweepCosts volume;
   volume.labels = sweep.labels;

@@ -50,6 +50,7 @@ struct SweepCosts
 /// Cost of a grey difference at or above which nothing is learnt, in grey levels. It is also the cost of
 /// falling outside a view.
 constexpr std::uint8_t SWEEP_TRUNCATION = 40;
+/// Sixteen bits hold SWEEP_TRUNCATION times this, with room for sums.
 constexpr int SWEEP_COST_PER_GREY_LEVEL = 16;
 
 /// Mean truncated absolute difference over 5 x 5 pixels, the views of an arm and the arms but the worst, so

@@ -250,6 +250,7 @@ void keepRivalSimd(const std::uint16_t* cost, std::uint16_t label, const std::ui
 
 void exposeBytesSimd(const std::uint8_t* value, const ExposureRow& row, std::size_t count, std::uint8_t* to)
 {
+  /// The largest byte.
   constexpr float WHITE = 255.0F;
   forElements<float>(
       0, static_cast<int>(count),

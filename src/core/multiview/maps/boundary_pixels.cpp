@@ -13,6 +13,7 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int RADIUS = 2;
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;
 constexpr float MIN_JUMP_PX = 0.2F;            // of the disparity in 3 x 3 pixels, to be an edge
 constexpr float MAX_RELATIVE_SPREAD = 0.3F;    // of the nearer side's colours, in units of the contrast

@@ -11,6 +11,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;
 
 /// Least and largest disparity about the pixels of a row.

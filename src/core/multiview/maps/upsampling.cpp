@@ -51,6 +51,7 @@ private:
   /// Linear: a pixel lies a quarter of a reduced pixel away from the middle of the reduced pixel it is in.
   void interpolateRow(const cv::Mat& half, int y, float* line, float* result) const
   {
+    // Weights of linear interpolation at a quarter of the distance.
     constexpr float near = 0.75F;
     constexpr float far = 0.25F;
     const int row = halfRow(y);

@@ -118,6 +118,7 @@ void differentiateAlong(const float* HWY_RESTRICT before2, const float* HWY_REST
                         const float* HWY_RESTRICT after, const float* HWY_RESTRICT after2, int width,
                         float* HWY_RESTRICT derivative)
 {
+  // Fourth-order central difference: exact for polynomials of degree four.
   constexpr float near_tap = 8.0F / 12.0F;
   constexpr float far_tap = 1.0F / 12.0F;
   for (int x = 0; x < width; ++x)

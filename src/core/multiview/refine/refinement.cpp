@@ -15,10 +15,12 @@ namespace
 /// A band computes some rows above and below it as well: a few for each thread are enough to share out.
 constexpr int BANDS_PER_THREAD = 3;
 constexpr int MIN_BAND_ROWS = 16;
+/// Opposite arms of eight directions.
 constexpr int DIRECTION_PAIRS = 4;
 constexpr int RESIDUAL_RADIUS = 2;
 /// Added to residuals (three channels, averaged over views and pixels) before arms are compared.
 constexpr float RESIDUAL_FLOOR = 3.0F;
+/// Reach of the derivative of four pixels.
 constexpr std::size_t GRADIENT_PAD = 2;
 /// How much a view adds to the refocused mean, which it takes part in with a weight, against the reference.
 constexpr float SHARE_OF_MEAN = 0.7F;

@@ -14,18 +14,19 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int TILES_PER_BLOCK = BLOCK_PX / TILE_PX;
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
-/// With fewer believed pixels about a block nothing is charged there.
-constexpr int MIN_BELIEVED = 30;
-/// How much a label must be better than those at that distance to be believed.
+/// With fewer supported pixels about a block nothing is charged there.
+constexpr int MIN_SUPPORTED_PIXELS = 30;
+/// How much a label must be better than those at that distance to be supported.
 constexpr float MIN_SUPPORT = 12.0F;
 constexpr float SUPPORT_DISTANCE_PX = 0.25F;
-/// Of the believed labels about a block: nothing is taken to be farther.
+/// Of the supported labels about a block: nothing is taken to be farther.
 constexpr float FLOOR_QUANTILE = 0.05F;
 /// Charge in later searches for leaving the background, what is free of it, and its limit.
-constexpr float HOLD_PER_PX = 16.0F;
-constexpr float HOLD_SLACK_PX = 0.375F;
-constexpr int MAX_HOLD = 20;
+constexpr float MOVED_CHARGE_PER_PX = 16.0F;
+constexpr float MOVED_SLACK_PX = 0.375F;
+constexpr int MAX_MOVED_CHARGE = 20;
 
 SupportLine::Lines linesAbout(const CostVolume& volume, int tile_column, int y)
 {
@@ -70,10 +71,10 @@ std::vector<std::uint8_t> ramp(int labels, float slack, float per_label, int lim
 }
 
 /// The label below which a share of the counts lies, or NO_LABEL if there are too few.
-std::int16_t lowestBelieved(const std::vector<int>& counts, float quantile)
+std::int16_t lowestSupported(const std::vector<int>& counts, float quantile)
 {
   const int total = std::accumulate(counts.begin(), counts.end(), 0);
-  if (total < MIN_BELIEVED)
+  if (total < MIN_SUPPORTED_PIXELS)
   {
     return NO_LABEL;
   }
@@ -99,7 +100,7 @@ void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparit
   data_cost_.create(disparity.size(), CV_32FC1);
   floor_.create((volume.height + BLOCK_PX - 1) / BLOCK_PX, (volume.width + BLOCK_PX - 1) / BLOCK_PX,
                 CV_16SC1);
-  countBelieved(disparity, volume, pool);
+  countSupportedLabels(disparity, volume, pool);
   const auto charge = ramp(volume.bands.labels(), 0.0F, CHARGE_PER_PX * labels.step_px, MAX_CHARGE);
   pool.parallelFor(0, floor_.rows, 1,
                    [&](int first, int last)
@@ -116,11 +117,12 @@ void BackgroundFusion::prepare(const LabelSpace& labels, const cv::Mat& disparit
 }
 
 /// The labels that the images support, counted for each block in each row of tiles.
-void BackgroundFusion::countBelieved(const cv::Mat& disparity, const CostVolume& volume, ThreadPool& pool)
+void BackgroundFusion::countSupportedLabels(const cv::Mat& disparity, const CostVolume& volume,
+                                            ThreadPool& pool)
 {
   const auto label_count = static_cast<std::size_t>(volume.bands.labels());
   const auto block_columns = static_cast<std::size_t>(floor_.cols);
-  believed_.resize(static_cast<std::size_t>(volume.bands.rows()) * block_columns * label_count);
+  supported_.resize(static_cast<std::size_t>(volume.bands.rows()) * block_columns * label_count);
   const int threshold = thresholdOfSum(MIN_SUPPORT);
   const auto count_row = [&](int tile_row)
   {
@@ -129,14 +131,14 @@ void BackgroundFusion::countBelieved(const cv::Mat& disparity, const CostVolume&
     cv::Mat labels = label_.rowRange(rows);
     disparity.rowRange(rows).convertTo(labels, CV_32F, 1.0 / labels_.step_px,
                                        -labels_.first_px / labels_.step_px);
-    int* const counts = &believed_[static_cast<std::size_t>(tile_row) * block_columns * label_count];
+    int* const counts = &supported_[static_cast<std::size_t>(tile_row) * block_columns * label_count];
     std::fill_n(counts, block_columns * label_count, 0);
     for (int y = rows.start; y < rows.end; ++y)
     {
       for (int column = 0; column < volume.bands.columns(); ++column)
       {
         const auto block = static_cast<std::size_t>(column / TILES_PER_BLOCK);
-        countBelieved(column, y, threshold, volume, counts + block * label_count);
+        countSupportedLabels(column, y, threshold, volume, counts + block * label_count);
       }
     }
   };
@@ -151,8 +153,8 @@ void BackgroundFusion::countBelieved(const cv::Mat& disparity, const CostVolume&
 }
 
 /// In one row of a tile; finds the costs of its labels as well.
-void BackgroundFusion::countBelieved(int tile_column, int y, int threshold, const CostVolume& volume,
-                                     int* counts)
+void BackgroundFusion::countSupportedLabels(int tile_column, int y, int threshold, const CostVolume& volume,
+                                            int* counts)
 {
   const int x = tile_column * TILE_PX;
   const int width = std::min(TILE_PX, volume.width - x);
@@ -182,7 +184,7 @@ void BackgroundFusion::chooseFloors(int block_y, int labels)
 {
   const auto label_count = static_cast<std::size_t>(labels);
   std::vector<int> about(label_count);
-  const int tile_rows = static_cast<int>(believed_.size() / label_count) / floor_.cols;
+  const int tile_rows = static_cast<int>(supported_.size() / label_count) / floor_.cols;
   const int first_row = std::max(block_y - 1, 0) * TILES_PER_BLOCK;
   const int last_row = std::min((block_y + 2) * TILES_PER_BLOCK, tile_rows);
   for (int block_x = 0; block_x < floor_.cols; ++block_x)
@@ -193,11 +195,11 @@ void BackgroundFusion::chooseFloors(int block_y, int labels)
       for (int x = std::max(block_x - 1, 0); x <= std::min(block_x + 1, floor_.cols - 1); ++x)
       {
         const std::ptrdiff_t block = static_cast<std::ptrdiff_t>(row) * floor_.cols + x;
-        const auto counts = believed_.begin() + block * labels;
+        const auto counts = supported_.begin() + block * labels;
         std::transform(about.begin(), about.end(), counts, about.begin(), std::plus<>());
       }
     }
-    floor_.at<std::int16_t>(block_y, block_x) = lowestBelieved(about, FLOOR_QUANTILE);
+    floor_.at<std::int16_t>(block_y, block_x) = lowestSupported(about, FLOOR_QUANTILE);
   }
 }
 
@@ -226,10 +228,10 @@ void BackgroundFusion::chargeBlock(int block_x, int block_y, const std::vector<s
   }
 }
 
-void BackgroundFusion::hold(ThreadPool& pool, CostVolume& volume) const
+void BackgroundFusion::chargeMoved(ThreadPool& pool, CostVolume& volume) const
 {
-  const auto charge =
-      ramp(volume.bands.labels(), HOLD_SLACK_PX / labels_.step_px, HOLD_PER_PX * labels_.step_px, MAX_HOLD);
+  const auto charge = ramp(volume.bands.labels(), MOVED_SLACK_PX / labels_.step_px,
+                           MOVED_CHARGE_PER_PX * labels_.step_px, MAX_MOVED_CHARGE);
   pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {

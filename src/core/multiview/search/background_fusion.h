@@ -33,12 +33,12 @@ public:
             const cv::Mat& background, ThreadPool& pool, cv::Mat& disparity);
 
   /// Charges in a later volume for labels nearer than what was moved back.
-  void hold(ThreadPool& pool, CostVolume& volume) const;
+  void chargeMoved(ThreadPool& pool, CostVolume& volume) const;
 
 private:
   struct Region;
-  void countBelieved(const cv::Mat& disparity, const CostVolume& volume, ThreadPool& pool);
-  void countBelieved(int tile_column, int y, int threshold, const CostVolume& volume, int* counts);
+  void countSupportedLabels(const cv::Mat& disparity, const CostVolume& volume, ThreadPool& pool);
+  void countSupportedLabels(int tile_column, int y, int threshold, const CostVolume& volume, int* counts);
   void chooseFloors(int block_y, int labels);
   void chargeBlock(int block_x, int block_y, const std::vector<std::uint8_t>& charge,
                    CostVolume& volume) const;
@@ -57,12 +57,12 @@ private:
   static constexpr int MAX_CHARGE = 48;
 
   LabelSpace labels_;
-  cv::Mat label_;              // CV_32FC1 of the first search
-  cv::Mat data_cost_;          // CV_32FC1 of the first search, without charges
-  std::vector<int> believed_;  // pixels with a believed label: [row of tiles][column of blocks][label]
-  cv::Mat floor_;              // CV_16SC1, one element a block
-  cv::Mat moved_;              // CV_16SC1: the label that a pixel was moved to, or -1
-  cv::Mat farther_;            // CV_8UC1: 1 where the second search is farther
+  cv::Mat label_;               // CV_32FC1 of the first search
+  cv::Mat data_cost_;           // CV_32FC1 of the first search, without charges
+  std::vector<int> supported_;  // pixels with a supported label: [row of tiles][column of blocks][label]
+  cv::Mat floor_;               // CV_16SC1, one element a block
+  cv::Mat moved_;               // CV_16SC1: the label that a pixel was moved to, or -1
+  cv::Mat farther_;             // CV_8UC1: 1 where the second search is farther
   std::vector<std::uint8_t> marked_rows_;  // of these: whether a row has any
   cv::Mat regions_;                        // CV_32SC1
 };

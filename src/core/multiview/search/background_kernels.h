@@ -56,6 +56,7 @@ struct SupportLine
   int distance = 1;
   int threshold = 0;  ///< the sum must exceed it, -NO_SUPPORT .. NO_SUPPORT
 };
+/// More than any sum over 3 x 3 pixels with two differences of bytes each.
 constexpr int NO_SUPPORT = 9 * 2 * 255 + 1;
 
 /// Adds to counts[label] the pixels whose label all of their 3 x 3 neighbours have with those `distance`

@@ -11,6 +11,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
 /// Smaller differences of the two searches are left alone.
 constexpr float MIN_DROP_PX = 0.15F;

@@ -9,7 +9,7 @@ namespace
 {
 // Costs in the units of FULL_COST.
 
-/// The costs of all labels are computed in every so manieth row, whatever the bands.
+/// The costs of all labels are computed in one row of so many, whatever the bands.
 constexpr int OBSERVED_ROW_STRIDE = 8;
 constexpr int OBSERVED_ROW = 3;
 constexpr int SAMPLES_PER_TILE = TILE_PX * TILE_PX / OBSERVED_ROW_STRIDE;
@@ -32,6 +32,7 @@ constexpr float AT_ENDS_MORE_SHARE = 0.003F;
 /// Pixels that have the first or the last label.
 int countAtEnds(const cv::Mat& disparity, const LabelSpace& labels)
 {
+  // Nearer to the first or last label than to any other.
   constexpr float half_label = 0.5F;
   const float lowest = labels.disparity(half_label);
   const float highest = labels.disparity(static_cast<float>(labels.count - 1) - half_label);

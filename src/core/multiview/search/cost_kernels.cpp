@@ -130,6 +130,7 @@ HWY_INLINE hn::Vec<Bytes> meanOfBest(Bytes bytes, const std::uint8_t* sorted, in
 
 void armCostRowSimd(const ArmCostRow& row, std::uint8_t* cost)
 {
+  // DIRECTIONS of view_set.cpp.
   constexpr std::size_t max_arms = 8;
   const Bytes bytes;
   HWY_ALIGN std::uint8_t arms[max_arms * VECTOR_OVERRUN];

@@ -10,7 +10,9 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Rows of tiles of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int TILE_ROWS_PER_CHUNK = 2;
+/// Above every cost, which FULL_COST limits.
 constexpr std::uint8_t NO_COST = 255;
 /// Labels by which a surface must be nearer to hide a point.
 constexpr int HIDDEN_MARGIN_LABELS = 2;
@@ -41,7 +43,7 @@ std::vector<std::uint16_t> armScales(const ViewSet& views, int truncation)
 
 }  // namespace
 
-void CostVolume::create(int new_width, int new_height, const LabelBands& new_bands, Room room)
+void CostVolume::create(int new_width, int new_height, const LabelBands& new_bands, Capacity capacity)
 {
   width = new_width;
   height = new_height;
@@ -51,7 +53,7 @@ void CostVolume::create(int new_width, int new_height, const LabelBands& new_ban
   {
     for (int column = 0; column < bands.columns(); ++column)
     {
-      const int labels = room == Room::AllLabels ? bands.labels() : bands.at(row, column).count;
+      const int labels = capacity == Capacity::AllLabels ? bands.labels() : bands.at(row, column).count;
       offsets.push_back(offsets.back() + static_cast<std::size_t>(labels) * TILE_PX * TILE_PX);
     }
   }
@@ -98,7 +100,7 @@ CostVolumeBuilder::~CostVolumeBuilder() = default;
 void CostVolumeBuilder::buildFromArms(const ViewSet& views, const LabelSpace& labels, const LabelBands& bands,
                                       const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
-  volume.create(views.width(), views.height(), bands, CostVolume::Room::Band);
+  volume.create(views.width(), views.height(), bands, CostVolume::Capacity::Band);
   build({views, labels, settings}, pool, volume);
 }
 
@@ -106,7 +108,7 @@ void CostVolumeBuilder::buildObserved(const ViewSet& views, const LabelSpace& la
                                       const CostSettings& settings, RowObserver& observer, ThreadPool& pool,
                                       CostVolume& volume)
 {
-  volume.create(views.width(), views.height(), bands, CostVolume::Room::AllLabels);
+  volume.create(views.width(), views.height(), bands, CostVolume::Capacity::AllLabels);
   Task task{views, labels, settings};
   task.observer = &observer;
   build(task, pool, volume);
@@ -126,7 +128,7 @@ void CostVolumeBuilder::buildFromVisible(const ViewSet& views, const LabelSpace&
                                          const LabelBands& bands, const VisibleSurfaces& surfaces,
                                          const CostSettings& settings, ThreadPool& pool, CostVolume& volume)
 {
-  volume.create(views.width(), views.height(), bands, CostVolume::Room::Band);
+  volume.create(views.width(), views.height(), bands, CostVolume::Capacity::Band);
   Task task{views, labels, settings};
   task.surfaces = &surfaces;
   build(task, pool, volume);

@@ -26,14 +26,14 @@ struct CostVolume
   std::vector<std::size_t> offsets;  ///< where each tile begins, and the size
 
   /// How much room each tile has.
-  enum class Room
+  enum class Capacity
   {
     AllLabels,  ///< its band may change later
     Band
   };
 
   /// Takes the bands. Keeps the memory when it suffices.
-  void create(int width, int height, const LabelBands& bands, Room room);
+  void create(int width, int height, const LabelBands& bands, Capacity capacity);
   std::size_t size() const { return offsets.back(); }
   std::size_t tileOffset(int row, int column) const
   {

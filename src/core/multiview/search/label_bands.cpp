@@ -7,6 +7,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Rows of tiles of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int TILE_ROWS_PER_CHUNK = 2;
 
 /// Smallest and largest value of a part of a map.

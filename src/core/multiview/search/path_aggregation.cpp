@@ -12,6 +12,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
 
 /// The states of TILE_PX paths on their way through tiles with different bands.

@@ -10,6 +10,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// No image has a row of this number.
 constexpr int NO_ROW = std::numeric_limits<int>::min();
 constexpr std::size_t OVERRUN = 64;  ///< bytes that a vector may read or write past the end of a row
 

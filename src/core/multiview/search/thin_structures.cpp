@@ -13,6 +13,7 @@ namespace
 {
 constexpr int RADIUS = 2;
 constexpr int SIZE = 2 * RADIUS + 1;
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
 /// How much nearer than its surroundings a structure has to be.
 constexpr float MIN_JUMP_PX = 0.2F;

@@ -10,7 +10,9 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// A cache line, and the widest vector.
 constexpr std::size_t ROW_ALIGNMENT = 64;
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;
 
 void largestOfThree(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, int count,

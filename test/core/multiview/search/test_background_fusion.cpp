@@ -25,7 +25,7 @@ protected:
   {
     LabelBands bands;
     bands.setAll(WIDTH, HEIGHT, LABELS);
-    volume_.create(WIDTH, HEIGHT, bands, CostVolume::Room::Band);
+    volume_.create(WIDTH, HEIGHT, bands, CostVolume::Capacity::Band);
     cv::Mat image(HEIGHT, WIDTH, CV_8UC1, cv::Scalar(90));
     preparePlanar(image, {}, 4, guide_);
     first_search_ = cv::Mat(HEIGHT, WIDTH, CV_32FC1, cv::Scalar(labels_.disparity(BACKGROUND)));
@@ -99,7 +99,7 @@ TEST_F(BackgroundFusionTest, LaterSearchesAreHeldWhereItMoved)
   fill(-1);
   fused();
   fill(-1);
-  fusion_.hold(pool_, volume_);
+  fusion_.chargeMoved(pool_, volume_);
   EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 3), 20);
   EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 6), 26);
   EXPECT_EQ(volume_.at(90, 30, LABELS - 1), 40);

@@ -172,7 +172,7 @@ struct Problem
   CostVolume volume(const LabelBands& bands) const
   {
     CostVolume result;
-    result.create(WIDTH, HEIGHT, bands, CostVolume::Room::Band);
+    result.create(WIDTH, HEIGHT, bands, CostVolume::Capacity::Band);
     for (int y = 0; y < HEIGHT; ++y)
     {
       for (int x = 0; x < WIDTH; ++x)
