@@ -60,19 +60,6 @@ bool isLarge(const LightField& light_field)
   return light_field.size().area() > LARGE_PIXELS;
 }
 
-LightField chosenViews(const LightField& light_field, ViewSelection selection)
-{
-  if (selection != ViewSelection::Auto)
-  {
-    return selectViews(light_field, selection);
-  }
-  const GridPosition centre = light_field.reference().grid;
-  const auto on_cross = std::count_if(
-      light_field.views.begin(), light_field.views.end(),
-      [&](const View& view) { return view.grid.row == centre.row || view.grid.column == centre.column; });
-  return on_cross > FEW_VIEWS ? selectViews(light_field, ViewSelection::Cross) : light_field;
-}
-
 /// Of a point at infinity, where no shear and no guess hides it.
 std::optional<float> farthestDisparity(const LightField& light_field)
 {
@@ -119,8 +106,6 @@ float measuredNoise(const LightField& light_field, const DisparityRange& range, 
   return is_correlated ? std::max(of_image, correlated * of_views) : of_image;
 }
 
-/// @param unit from solverUnit()
-SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures& measures, double unit)
 /// @param light_field in pixels of disparity, of which the solver has `unit` times as many
 SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures& measures,
                               const LightField& light_field, double unit)

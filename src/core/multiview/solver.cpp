@@ -256,7 +256,6 @@ void Solver::linearize(const SolverSettings& settings, RunContext& context)
   discount_.apply(settings.noise_discount, context.pool, linearization_);
 }
 
-void Solver::judge(const SolverSettings& settings, RunContext& context)
 void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
 {
   if (settings.refinements == 0)

@@ -96,7 +96,6 @@ private:
   void fuseBackground(const SolverSettings& settings, RunContext& context);
   void refine(const SolverSettings& settings, RunContext& context);
   void linearize(const SolverSettings& settings, RunContext& context);
-  void judge(const SolverSettings& settings, RunContext& context);
   void rateConfidence(const SolverSettings& settings, RunContext& context);
   const PlanarImage& guide() const
   {

@@ -70,7 +70,7 @@ LightField reducedViews(const LightField& light_field, int halvings, ThreadPool&
 std::vector<AdjustedPoint> matchedPoints(const LightField& small, const DisparityRange& range,
                                          ThreadPool& pool)
 {
-  const std::vector<Arm> arms = armsOf(small);
+  const std::vector<AxisArm> arms = axisArmsOf(small);
   PlaneSweep plan;
   plan.reference = small.reference().image;
   plan.disparity_step = LABEL_DISPLACEMENT / static_cast<float>(farthestDistance(arms));
@@ -80,7 +80,7 @@ std::vector<AdjustedPoint> matchedPoints(const LightField& small, const Disparit
   {
     return {};
   }
-  for (const Arm& arm : arms)
+  for (const AxisArm& arm : arms)
   {
     SweepArm sweep_arm;
     for (const View* view : arm)

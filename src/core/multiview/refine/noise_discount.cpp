@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/multiview/refine/noise_discount_kernels.h"
-#include "core/multiview/refine/normal_equations.h"
+#include "core/multiview/refine/normal_equation_kernels.h"
 
 namespace light_field_depth::multiview
 {
