@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <optional>
 #include <vector>
 
 #include "support/benchmark_scenes.h"
@@ -217,7 +218,7 @@ TEST(DisparityRange, TakesSixteenBitsAndTheSmallestViews)
 TEST(DisparityRange, RejectsOptionsThatCannotBeUsed)
 {
   EXPECT_TRUE(validate(DisparityRangeOptions{}).empty());
-  EXPECT_EQ(validate(DisparityRangeOptions{0.0F, -1.0F, 0.0F}).size(), 3U);
+  EXPECT_EQ(validate(DisparityRangeOptions{0.0F, -1.0F, 0.0F, std::nullopt}).size(), 3U);
 }
 
 TEST(DisparityRange, LeavesTheViewsAsTheyAre)
