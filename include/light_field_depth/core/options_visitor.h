@@ -68,6 +68,7 @@ void visitMultiviewOptions(Options& options, Visitor& visit)
   visit("multiview_refinements", options.refinements);
   visit("multiview_brightness_slope", options.brightness_slope);
   visit("multiview_refinement_smoothness", options.refinement_smoothness);
+  visit("multiview_registration", options.registration);
   visit("multiview_temporal", options.temporal);
 }
 

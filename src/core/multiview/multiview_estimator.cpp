@@ -266,16 +266,13 @@ LightField MultiviewEstimator::measure(const LightField& views, const EstimateRe
     measures.range = request.disparity_range ? *request.disparity_range
                                              : findDisparityRange(small, context.pool, range_options);
   }
+  if (options_.registration)
   {
     const StageTimer timer(context, "registration");
-    // Arrays that are calibrated are taken at their word.
-    if (!views.calibration)
-    {
-      RegistrationOptions registration_options;
-      registration_options.pixel_size = halved ? 2.0 : 1.0;
-      measures.registration = estimateRegistration(small, measures.range, context.pool, registration_options);
-      chosen = correctRegistration(chosen, measures.registration, context.pool);
-    }
+    RegistrationOptions registration_options;
+    registration_options.pixel_size = halved ? 2.0 : 1.0;
+    measures.registration = estimateRegistration(small, measures.range, context.pool, registration_options);
+    chosen = correctRegistration(chosen, measures.registration, context.pool);
   }
   const StageTimer timer(context, "noise");
   measures.noise_sigma = measuredNoise(chosen, measures.range, context.pool);

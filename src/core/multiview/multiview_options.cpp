@@ -64,7 +64,8 @@ bool operator==(const MultiviewOptions& left, const MultiviewOptions& right)
     return std::tie(options.preset, options.label_step_px, options.small_change_penalty,
                     options.large_change_penalty, options.visibility_passes, options.background_fusion,
                     options.thin_structures, options.boundary_pixels, options.refinements,
-                    options.brightness_slope, options.refinement_smoothness, options.temporal);
+                    options.brightness_slope, options.refinement_smoothness, options.registration,
+                    options.temporal);
   };
   return fields(left) == fields(right);
 }

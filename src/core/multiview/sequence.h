@@ -19,7 +19,7 @@ namespace light_field_depth::multiview
 struct SceneMeasures
 {
   std::vector<ViewExposure> exposures;  ///< one for each view
-  Registration registration;            ///< that was corrected; neutral for calibrated light fields
+  Registration registration;            ///< that was corrected; neutral without the option
   DisparityRange range;                 ///< in pixels per grid step
   float noise_sigma = 0.0F;             ///< in 8-bit units
 };

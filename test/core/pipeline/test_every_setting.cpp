@@ -67,8 +67,8 @@ const std::map<std::string, std::string>& otherValues()
 /// wrong matches, or is the method itself.
 bool isTestedElsewhere(const std::string& name)
 {
-  return name == "method" || name == "multiview_temporal" || name == "min_confidence" ||
-         name == "cpm_min_region_seeds" || name.rfind("dense_cloud", 0) == 0;
+  return name == "method" || name == "multiview_temporal" || name == "multiview_registration" ||
+         name == "min_confidence" || name == "cpm_min_region_seeds" || name.rfind("dense_cloud", 0) == 0;
 }
 
 class EverySetting : public ::testing::Test
