@@ -66,11 +66,11 @@ struct ProductRequest
   PointAllocator dense_cloud_allocator;  ///< likewise
 };
 
-/// What a run gives: what was asked for, and how long it took.
 /// The views that Pipeline::run() will use of a light field whose views need no images yet: the others need
 /// not be read. The products do not depend on them.
 ViewSelection viewsToRead(const LightField& light_field, const PipelineOptions& options);
 
+/// What a run gives: what was asked for, and how long it took.
 struct PipelineResult
 {
   DisparityEstimate estimate;  ///< disparity and confidence; always there

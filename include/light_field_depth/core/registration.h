@@ -15,9 +15,9 @@ namespace light_field_depth
 ///   p + shift_px + (zoom * q.x - roll * q.y, roll * q.x + zoom * q.y),   q = p - middle of the image.
 struct ViewMisfit
 {
-  cv::Point2d shift_px;
-  double roll = 0.0;  ///< radians
-  double zoom = 0.0;  ///< magnification minus 1
+  cv::Point2d shift_px;  ///< of the middle of the view
+  double roll = 0.0;     ///< radians
+  double zoom = 0.0;     ///< magnification minus 1
 };
 
 /// How well the views of a light field fit together.
@@ -28,7 +28,7 @@ struct Registration
   /// Disparities in the columns (by View::steps.y) are step_ratio * d + step_offset_px where those in the
   /// rows are d.
   double step_ratio = 1.0;
-  double step_offset_px = 0.0;
+  double step_offset_px = 0.0;  ///< see step_ratio
   /// One for each view, what the line leaves; neutral for the reference. Empty: no view is off by itself.
   std::vector<ViewMisfit> views;
   /// Some view is rolled or zoomed so far that its image must be resampled.

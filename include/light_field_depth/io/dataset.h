@@ -61,7 +61,7 @@ std::string toString(PlaceClaim claim);
 /// What is known of the cameras besides what the dataset states; it wins over that.
 struct CameraOptions
 {
-  std::optional<double> focal_length_px;
+  std::optional<double> focal_length_px;  ///< of the rectified views
   std::optional<cv::Point2d> baseline_m;  ///< between adjacent columns and between adjacent rows; positive
   std::optional<cv::Point2d> principal_point_px;  ///< of the dataset's own reference view
   std::optional<double> focus_distance_m;  ///< of the plane of zero disparity; parallel cameras if absent
@@ -77,8 +77,8 @@ struct DatasetOptions
   std::optional<cv::Size> grid;   ///< columns x rows of the views that one number names
   std::optional<cv::Size> tiles;  ///< columns x rows of the views in one image
   std::optional<std::string>
-      frame;  ///< of a sequence: its number, or its folder's name; the first when absent
-  CameraOptions camera;
+      frame;             ///< of a sequence: its number, or its folder's name; the first when absent
+  CameraOptions camera;  ///< wins over what the dataset states
   /// Which views to decode, chosen from the light field without images; all when empty.
   std::function<ViewSelection(const LightField& without_images)> selection;
   int threads = 0;  ///< that decode images; 0 takes one per processor

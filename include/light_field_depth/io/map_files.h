@@ -26,8 +26,8 @@ std::vector<MapFormat> mapFormatsFromString(const std::string& list);
 /// level = round((value - offset) * scale), 1 .. 65535; 0 is unknown.
 struct Png16Scale
 {
-  double scale = 1.0;
-  double offset = 0.0;
+  double scale = 1.0;   ///< levels per unit of the map
+  double offset = 0.0;  ///< value of level 0
 };
 
 /// 256 levels a pixel as in the KITTI benchmark, fewer if the values do not fit. The offset is 0 where no
