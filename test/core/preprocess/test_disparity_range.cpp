@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "support/benchmark_scenes.h"
