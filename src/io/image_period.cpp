@@ -164,8 +164,9 @@ cv::Mat extractPart(const cv::Mat& image, const ViewPart& part)
     auto* const to = view.ptr(y);
     for (int x = 0; x < width; ++x)
     {
-      const auto column = static_cast<std::size_t>(x * part.grid.width + part.cell.column);
-      std::copy_n(from + column * pixel, pixel, to + static_cast<std::size_t>(x) * pixel);
+      const int column = x * part.grid.width + part.cell.column;
+      std::copy_n(from + static_cast<std::size_t>(column) * pixel, pixel,
+                  to + static_cast<std::size_t>(x) * pixel);
     }
   }
   return view;

@@ -260,7 +260,7 @@ fs::path findFrame(const fs::path& folder, const std::string& name)
   {
     for (const char* const ending : {"", ".png", ".exr", ".jpg", ".jpeg", ".PNG", ".JPG", ".tif", ".tiff"})
     {
-      const fs::path path = folder / inside / (name + ending);
+      fs::path path = folder / inside / (name + ending);
       if (isFile(path))
       {
         return path;

@@ -54,6 +54,7 @@ struct Equations
   {
   }
   float* row(int i) { return matrix.data() + static_cast<std::ptrdiff_t>(i) * size; }
+  const float* row(int i) const { return matrix.data() + static_cast<std::ptrdiff_t>(i) * size; }
 
   int size;
   std::vector<float> matrix;
@@ -207,14 +208,15 @@ private:
       for (int a = 0; a < PER_VIEW; ++a)
       {
         const float weighted = seen.weight * seen.own[static_cast<std::size_t>(a)];
-        float* const row = equations.row(first + a);
+        const int unknown = first + a;
+        float* const row = equations.row(unknown);
         for (int b = a; b < PER_VIEW; ++b)
         {
           row[first + b] += weighted * seen.own[static_cast<std::size_t>(b)];
         }
         row[ratio] += weighted * seen.ratio;
-        equations.side[static_cast<std::size_t>(first + a)] += weighted * seen.difference;
-        cross[first + a] = weighted * seen.along;
+        equations.side[static_cast<std::size_t>(unknown)] += weighted * seen.difference;
+        cross[unknown] = weighted * seen.along;
       }
       equations.row(ratio)[ratio] += seen.weight * seen.ratio * seen.ratio;
       equations.side[static_cast<std::size_t>(ratio)] += seen.weight * seen.ratio * seen.difference;
@@ -244,7 +246,7 @@ private:
       {
         for (int b = a; b < unknowns_; ++b)
         {
-          matrix.at<double>(a, b) += part.matrix[static_cast<std::size_t>(a * unknowns_ + b)];
+          matrix.at<double>(a, b) += part.row(a)[b];
         }
         side.at<double>(a) -= part.side[static_cast<std::size_t>(a)];
       }
