@@ -74,7 +74,7 @@ std::vector<View> chosenViews(const DatasetOptions& options, const PlacedViews& 
     return placed.views;
   }
   without_images.reference_index = static_cast<std::size_t>(reference - placed.views.begin());
-  const std::vector<View> chosen = selectViews(without_images, options.selection(without_images)).views;
+  std::vector<View> chosen = selectViews(without_images, options.selection(without_images)).views;
   std::vector<ViewFile> chosen_files;
   for (const View& view : chosen)
   {

@@ -276,7 +276,7 @@ std::optional<fs::path> readTruth(const YamlFields& fields, const fs::path& file
   {
     return std::nullopt;
   }
-  const fs::path path = file.parent_path() / *name;
+  fs::path path = file.parent_path() / *name;
   if (!isFile(path))
   {
     throw InputError("The file '" + path.string() + "' that '" + file.string() +

@@ -94,7 +94,8 @@ std::vector<std::uint8_t> findMutualMatches(const PlaneSweep& sweep, const Sweep
       const cv::Point seen = cv::Point(x, y) + shifts[here.label[i]];
       if (inside.contains(seen))
       {
-        const auto at = static_cast<std::size_t>(seen.y * volume.size.width + seen.x);
+        const int at_pixel = seen.y * volume.size.width + seen.x;
+        const auto at = static_cast<std::size_t>(at_pixel);
         mutual[i] = std::abs(there.label[at] - here.label[i]) <= MAX_LABEL_DIFFERENCE ? 1 : 0;
       }
     }

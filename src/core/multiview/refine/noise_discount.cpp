@@ -105,10 +105,10 @@ void NoiseDiscount::findShare(const NoiseDiscountSettings& settings, ThreadPool&
   const auto boxSum = [&](const cv::Mat& sums, int row, std::vector<float>& columns, std::vector<float>& box)
   {
     std::array<const float*, 2 * REACH_CELLS + 1> rows{};
-    for (int dy = -REACH_CELLS; dy <= REACH_CELLS; ++dy)
+    int from = row - REACH_CELLS;
+    for (const float*& cells : rows)
     {
-      rows[static_cast<std::size_t>(dy + REACH_CELLS)] =
-          sums.ptr<float>(std::clamp(row + dy, 0, sums.rows - 1));
+      cells = sums.ptr<float>(std::clamp(from++, 0, sums.rows - 1));
     }
     sumRows(rows.data(), static_cast<int>(rows.size()), columns.size(), columns.data());
     boxRow(columns.data(), width, REACH_CELLS, box.data());
