@@ -75,11 +75,6 @@ public:
   DisparityRange find(const DisparityRangeOptions& options)
   {
     const DisparityRange bounds = sweepWithinBounds(options.max_displacement_px);
-    if (found_ && fine_halvings_ < coarse_halvings_)
-    {
-      widen(std::max(SMALL_OBJECT_LABELS * step_, SMALL_OBJECT_FRACTION * (range_.max - range_.min)), bounds);
-      sweep(Views::Nearest, fine_halvings_);
-    }
     if (farthest_ > 1.5 * nearest_)
     {
       widen(MARGIN_LABELS * step_, bounds);
@@ -178,21 +173,37 @@ private:
     return plan;
   }
 
-  /// The first sweep, and again as often as its bounds turn out to be too narrow.
+  /// The sweeps of the nearest views, and again as often as their bounds turn out to be too narrow.
   /// @return the bounds that were wide enough
   DisparityRange sweepWithinBounds(float max_displacement_px)
   {
-    const float label_step = labelStep(coarse_halvings_, nearest_);
-    SearchBounds bounds(arms_, max_displacement_px, label_step);
-    range_ = bounds.range();
-    sweep(Views::Nearest, coarse_halvings_);
-    while (found_ && bounds.widenFor(core_, label_step))
+    SearchBounds bounds(arms_, max_displacement_px, labelStep(coarse_halvings_, nearest_));
+    do
     {
       forget();
-      range_ = bounds.range();
-      sweep(Views::Nearest, coarse_halvings_);
-    }
+    } while (!sweepNearest(bounds));
     return bounds.range();
+  }
+
+  /// Everything within the bounds, and in finer images what that left.
+  /// @return false if what that found reaches the bounds, which are widened then
+  bool sweepNearest(SearchBounds& bounds)
+  {
+    const float label_step = labelStep(coarse_halvings_, nearest_);
+    range_ = bounds.range();
+    sweep(Views::Nearest, coarse_halvings_);
+    if (found_ && bounds.widenFor(core_, label_step))
+    {
+      return false;
+    }
+    if (found_ && fine_halvings_ < coarse_halvings_)
+    {
+      widen(std::max(SMALL_OBJECT_LABELS * step_, SMALL_OBJECT_FRACTION * (range_.max - range_.min)),
+            bounds.range());
+      sweep(Views::Nearest, fine_halvings_);
+    }
+    // Patches of a pair are often wrong, see stayNearCore().
+    return !found_ || isPair(arms_) || !bounds.widenFor(range_, label_step);
   }
 
   void forget()
@@ -236,7 +247,8 @@ private:
              plan.disparity(static_cast<float>(support->core.last))};
     range_.min = std::min(resolved_.min, plan.disparity(static_cast<float>(support->all.first)));
     range_.max = std::max(resolved_.max, plan.disparity(static_cast<float>(support->all.last)));
-    if (isPair(arms_))
+    // The finer sweep looks only near what this left, and half as large a margin would cut off near objects.
+    if (isPair(arms_) && halvings == coarse_halvings_)
     {
       stayNearCore();
     }

@@ -135,7 +135,7 @@ TEST(DisparityRange, IsWidenedWhereItReachesItsBound)
 
 TEST(DisparityRange, EndsAtInfinityWhereThatIsKnown)
 {
-  const auto scene = render(0.5, 8.0, gridPositions(1, 3), {256, 192});
+  const auto scene = render(0.0, 8.0, gridPositions(1, 3), {256, 192});
   ThreadPool pool(2);
   DisparityRangeOptions options;
   EXPECT_LT(findDisparityRange(scene.light_field, pool, options).min, 0.0F);
