@@ -1,5 +1,6 @@
 #include "core/multiview/pair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -25,8 +26,8 @@ using testing::SyntheticLightField;
 
 const std::filesystem::path STEREO_PAIRS = "../shared/data/stereo";
 
-/// A wall at `far`, a slanted box and a smaller one at `near`, seen by two cameras side by side or above each
-/// other.
+/// A wall at `far`, a slanted box and a smaller one at `near`, seen by two cameras side by side, or the same
+/// turned, by two above each other. The wall is seen on both sides of what each box hides.
 SyntheticLightField renderPair(double far, double near, bool side_by_side = true)
 {
   SceneSettings settings;
@@ -34,13 +35,16 @@ SyntheticLightField renderPair(double far, double near, bool side_by_side = true
   settings.positions = side_by_side ? testing::gridPositions(1, 2) : testing::gridPositions(2, 1);
   settings.reference = GridPosition{0, 0};
   settings.samples = 2;
-  const double w = settings.size.width;
-  const double h = settings.size.height;
+  const double along = std::max(settings.size.width, settings.size.height);
+  const double across = std::min(settings.size.width, settings.size.height);
+  const auto turned = [&](const cv::Rect2d& area)
+  { return side_by_side ? area : cv::Rect2d(area.y, area.x, area.height, area.width); };
   return testing::renderScene(
       {plane(far, 0.0, 0.0, noiseTexture(1, 16.0, {110, 130, 140})),
-       rectangle(0.5 * (far + near), {0.45 * w, 0.1 * h, 0.3 * w, 0.35 * h},
+       rectangle(0.5 * (far + near), turned({0.45 * along, 0.1 * across, 0.3 * along, 0.35 * across}),
                  noiseTexture(2, 12.0, {150, 110, 90})),
-       rectangle(near, {0.4 * w, 0.55 * h, 0.3 * w, 0.3 * h}, noiseTexture(3, 10.0, {90, 120, 160}))},
+       rectangle(near, turned({0.4 * along, 0.55 * across, 0.3 * along, 0.3 * across}),
+                 noiseTexture(3, 10.0, {90, 120, 160}))},
       settings);
 }
 
