@@ -19,6 +19,7 @@
 #include "report_files.h"
 #include "scaling.h"
 #include "video.h"
+#include "view_order.h"
 
 namespace light_field_depth::benchmark
 {
@@ -35,7 +36,7 @@ struct Measurement
 constexpr const char* DEFAULT_FLAG = "--light-fields";
 
 /// The memory comes first: what others leave behind in the process would count.
-constexpr std::array<Measurement, 9> MEASUREMENTS = {{
+constexpr std::array<Measurement, 10> MEASUREMENTS = {{
     {"--memory", "the most memory that the process holds", measureMemory},
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
@@ -44,6 +45,7 @@ constexpr std::array<Measurement, 9> MEASUREMENTS = {{
      "the default method with noise, as cameras see, with fewer views, in grey, with uneven exposure",
      measureConditions},
     {"--captures", "light fields of real cameras, without truth", measureCaptures},
+    {"--order", "whether the layout of the views is found from the images", measureViewOrder},
     {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
     {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
     {"--profile", "where the time of a frame goes, and what the machine could do in it", profileFrame},
