@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "light_field_depth/core/depth_sign.h"
 #include "light_field_depth/core/thread_pool.h"
 #include "light_field_depth/core/view_layout.h"
 #include "light_field_depth/io/dataset.h"
