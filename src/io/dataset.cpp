@@ -255,6 +255,22 @@ std::string toString(PlaceClaim claim)
   return "single number";
 }
 
+std::string toString(LayoutSource source)
+{
+  switch (source)
+  {
+    case LayoutSource::Option:
+      return "option";
+    case LayoutSource::Description:
+      return "description";
+    case LayoutSource::Images:
+      return "images";
+    case LayoutSource::Names:
+      break;
+  }
+  return "names";
+}
+
 Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
 {
   FolderDescription description = describe(folder, options);
@@ -275,6 +291,7 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
   dataset.place_claim = description.place_claim;
   dataset.order = layout.order;
   dataset.flip = placed.flip;
+  dataset.layout_source = layout.source;
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     views[i].image = store.image(description.views[i].id);

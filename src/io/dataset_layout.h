@@ -12,6 +12,7 @@ struct Layout
 {
   Order order = Order::RowMajor;
   std::optional<Flip> flip;  ///< as the description and the positions say if absent
+  LayoutSource source = LayoutSource::Names;
 };
 
 /// Gives views with a single number (PlaceClaim::SingleNumber) their rows and columns, as if the number ran
@@ -20,8 +21,10 @@ struct Layout
 /// @throw InputError if the options contradict the number of views
 void settleGrid(FolderDescription& description, const DatasetOptions& options, ViewStore& store);
 
-/// The order and the flip of the views: those of the options where they are given.
-/// Takes the notes and warnings into the description.
+/// The order and the flip of the views: those of the options where they are given, then those of a
+/// description or of camera positions, then those that the images of the views on the row and the column of
+/// the reference tell, and where they do not, those of the names. Where the images contradict what goes
+/// before them, that is a warning. Takes the notes and warnings into the description.
 Layout settleLayout(FolderDescription& description, const DatasetOptions& options, ViewStore& store);
 
 }  // namespace light_field_depth

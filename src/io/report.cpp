@@ -54,6 +54,21 @@ Json calibrationJson(const Calibration& calibration)
           {"disparity_offset_px", calibration.disparity_offset_px}};
 }
 
+Json verdictJson(const Verdict& verdict)
+{
+  Json json;
+  json["doubtful"] = verdict.isDoubtful();
+  json["findings"] = Json::array();
+  for (const Finding& finding : verdict.findings)
+  {
+    json["findings"].push_back({{"name", finding.name},
+                                {"severity", toString(finding.severity)},
+                                {"value", rounded(finding.value)},
+                                {"sentence", finding.sentence}});
+  }
+  return json;
+}
+
 template <class Value>
 Json orNull(const std::optional<Value>& value)
 {
@@ -83,7 +98,10 @@ std::string toJson(const RunReport& report)
   json["options"] = optionsJson(report.options);
   json["input"] = report.input;
   json["format"] = report.format;
+  json["order"] = report.order;
   json["flip"] = report.flip;
+  json["layout_source"] = report.layout_source;
+  json["notes"] = report.notes;
   json["views_found"] = report.views_found;
   json["views_used"] = report.views_used;
   json["reference"] = {
@@ -102,6 +120,7 @@ std::string toJson(const RunReport& report)
     json["disparity_png16"] = {{"scale", report.disparity_png16->scale},
                                {"offset", report.disparity_png16->offset}};
   }
+  json["verdict"] = verdictJson(report.verdict);
   json["files"] = report.files;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -29,6 +29,9 @@ public:
   /// The image of a view, decoded now if need be. @throw InputError
   const cv::Mat& image(std::size_t id);
 
+  /// The threads that decode, for other work between two calls.
+  ThreadPool& pool() { return pool_; }
+
 private:
   /// The files that hold more than one view, as far as they are wanted.
   void readTables(const std::vector<std::size_t>& wanted);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "light_field_depth/evaluation/photometric_error.h"
+#include "light_field_depth/evaluation/verdict.h"
 #include "light_field_depth/io/dataset.h"
 #include "light_field_depth/io/files.h"
 #include "light_field_depth/io/intermediate_files.h"
@@ -51,6 +52,7 @@ struct Arguments
   std::vector<double> baseline_m;
   std::vector<double> principal_point_px;
   lfd::CameraOptions camera;
+  bool strict = false;
   std::string config;
   std::vector<std::string> settings;
 };
@@ -114,6 +116,9 @@ void declare(CLI::App& app, Arguments& arguments)
   app.add_option("--focus-distance", arguments.camera.focus_distance_m,
                  "metres to the plane of zero disparity; parallel cameras by default")
       ->check(CLI::PositiveNumber);
+  app.add_flag(
+      "--strict", arguments.strict,
+      "exit with 3 if the verdict on the result has a warning; the results are written all the same");
   app.add_option("--config", arguments.config, "YAML file of settings, as under 'options' in report.json");
   app.add_option("--set", arguments.settings, "NAME=VALUE of one setting; may be repeated");
 }
@@ -274,7 +279,10 @@ void describeInput(const std::string& input, const lfd::Dataset& dataset, lfd::R
   const lfd::LightField& light_field = dataset.light_field;
   report.input = input;
   report.format = dataset.format;
+  report.order = toString(dataset.order);
   report.flip = toString(dataset.flip);
+  report.layout_source = toString(dataset.layout_source);
+  report.notes = dataset.notes;
   report.views_found = dataset.views_found;
   report.reference = light_field.reference().grid;
   report.reference_file = dataset.files[light_field.reference_index].filename().string();
@@ -302,9 +310,16 @@ std::string sentenceOfInput(const lfd::RunReport& report)
   return text.str();
 }
 
+std::string sentenceOfLayout(const lfd::RunReport& report)
+{
+  return "Layout of the views: " + report.order + ", flip " + report.flip + " (from the " +
+         report.layout_source + ").";
+}
+
 void printSummary(const lfd::RunReport& report, const std::string& output)
 {
   std::cout << std::fixed << std::setprecision(2) << sentenceOfInput(report) << "\n"
+            << sentenceOfLayout(report) << "\n"
             << "Disparity range " << report.disparity_range.min << " .. " << report.disparity_range.max
             << " px (" << toString(report.range_source) << "), photometric error "
             << *report.photometric_error << " levels.\n"
@@ -321,6 +336,22 @@ void printSummary(const lfd::RunReport& report, const std::string& output)
     std::cout << " " << file;
   }
   std::cout << std::endl;
+}
+
+/// What reading the dataset, the places of the views and the result give to doubt.
+lfd::Verdict judge(const lfd::Dataset& dataset, const lfd::DisparityEstimate& estimate, lfd::ThreadPool& pool)
+{
+  lfd::Verdict verdict;
+  for (const std::string& warning : dataset.warnings)
+  {
+    verdict.findings.push_back({"input", lfd::Finding::Severity::Warning, 1.0, warning});
+  }
+  for (const lfd::Verdict& more : {lfd::judgeOrder(dataset.light_field, pool, false),
+                                   lfd::judgeResult(dataset.light_field, estimate, pool)})
+  {
+    verdict.findings.insert(verdict.findings.end(), more.findings.begin(), more.findings.end());
+  }
+  return verdict;
 }
 
 /// A light field and how long it took to read it.
@@ -342,7 +373,8 @@ Input readInput(const std::string& folder, lfd::DatasetOptions options, const lf
 }
 
 /// Solves one light field and writes its results.
-void estimateFrame(const Arguments& arguments, const Input& input, const Frame& frame,
+/// @return whether the verdict has no warning
+bool estimateFrame(const Arguments& arguments, const Input& input, const Frame& frame,
                    lfd::Pipeline& pipeline, lfd::RunReport report)
 {
   const lfd::OutputOptions output = lfd::outputOptions(arguments.output_files);
@@ -365,12 +397,25 @@ void estimateFrame(const Arguments& arguments, const Input& input, const Frame& 
   lfd::ThreadPool pool(report.threads);
   describeResult(result, lfd::photometricError(dataset.light_field, result.estimate.disparity, pool), report);
 
+  const Stopwatch verdict_watch;
+  report.verdict = judge(dataset, result.estimate, pool);
+  report.stage_times.push_back({"verdict", verdict_watch.milliseconds()});
+
   const Stopwatch write_watch;
   lfd::writeResults(frame.output, result, dataset.light_field.reference().image, output, report);
   report.write_ms = write_watch.milliseconds();
   report.peak_memory_mb = lfd::peakMemoryMb();
   lfd::writeFile(frame.output / "report.json", toJson(report));
   printSummary(report, frame.output.string());
+  for (const std::string& note : report.notes)
+  {
+    std::cout << "Note: " << note << "\n";
+  }
+  for (const std::string& warning : report.verdict.warnings())
+  {
+    std::cerr << "Warning: " << warning << "\n";
+  }
+  return !report.verdict.isDoubtful();
 }
 
 /// The names of the frames from --frames among all of a sequence.
@@ -401,7 +446,8 @@ std::vector<std::string> wantedFrames(const std::string& text, const std::vector
 }
 
 /// Frame after frame; the next one is read while one is solved.
-void estimateSequence(const Arguments& arguments, lfd::DatasetOptions options, lfd::RunReport report,
+/// @return whether the verdict on none of them has a warning
+bool estimateSequence(const Arguments& arguments, lfd::DatasetOptions options, lfd::RunReport report,
                       lfd::Pipeline& pipeline)
 {
   Input input = readInput(arguments.input, options, report.options);
@@ -420,6 +466,7 @@ void estimateSequence(const Arguments& arguments, lfd::DatasetOptions options, l
   {
     input = read(0);
   }
+  bool fine = true;
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     std::future<Input> next;
@@ -427,16 +474,19 @@ void estimateSequence(const Arguments& arguments, lfd::DatasetOptions options, l
     {
       next = std::async(std::launch::async, read, i + 1);
     }
-    estimateFrame(arguments, input, {fs::path(arguments.output) / names[i], i, names.size()}, pipeline,
-                  report);
+    fine = estimateFrame(arguments, input, {fs::path(arguments.output) / names[i], i, names.size()}, pipeline,
+                         report) &&
+           fine;
     if (next.valid())
     {
       input = next.get();
     }
   }
+  return fine;
 }
 
-void estimate(const Arguments& arguments)
+/// @return the exit code
+int estimate(const Arguments& arguments)
 {
   lfd::RunReport report;
   report.options = makeOptions(arguments);
@@ -444,13 +494,11 @@ void estimate(const Arguments& arguments)
   lfd::Pipeline pipeline(arguments.threads);
   cv::setNumThreads(pipeline.threads());
   const lfd::DatasetOptions options = makeDatasetOptions(arguments);
-  if (!arguments.frames.empty())
-  {
-    estimateSequence(arguments, options, report, pipeline);
-    return;
-  }
-  estimateFrame(arguments, readInput(arguments.input, options, report.options), {arguments.output}, pipeline,
-                report);
+  const bool fine = arguments.frames.empty()
+                        ? estimateFrame(arguments, readInput(arguments.input, options, report.options),
+                                        {arguments.output}, pipeline, report)
+                        : estimateSequence(arguments, options, report, pipeline);
+  return arguments.strict && !fine ? lfd::EXIT_DOUBTFUL : 0;
 }
 
 }  // namespace
@@ -463,5 +511,5 @@ int main(int argc, char** argv)
       "disparity.png, report.json and, if the dataset is calibrated, depth.pfm and cloud.ply.",
       "estimate");
   declare(app, arguments);
-  return lfd::runTool(app, argc, argv, [&] { estimate(arguments); });
+  return lfd::runTool(app, argc, argv, [&] { return estimate(arguments); });
 }

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <type_traits>
 
 #include <CLI/CLI.hpp>
 
@@ -13,9 +14,11 @@
 namespace light_field_depth
 {
 constexpr int EXIT_INTERRUPTED = 130;
+/// Of a tool that was asked to be strict: the work is done, but the verdict on it is a warning.
+constexpr int EXIT_DOUBTFUL = 3;
 
 /// Parses the command line and calls body(). Whatever goes wrong becomes one sentence on stderr.
-/// @return the exit code: 0, 1 after an error, 130 after an interruption
+/// @return the exit code: 0 or what body() returns, 1 after an error, 130 after an interruption
 template <class Body>
 int runTool(CLI::App& app, int argc, char** argv, const Body& body)
 {
@@ -27,8 +30,15 @@ int runTool(CLI::App& app, int argc, char** argv, const Body& body)
   try
   {
     app.parse(argc, argv);
-    body();
-    return 0;
+    if constexpr (std::is_same_v<decltype(body()), int>)
+    {
+      return body();
+    }
+    else
+    {
+      body();
+      return 0;
+    }
   }
   catch (const CLI::Success& help)
   {

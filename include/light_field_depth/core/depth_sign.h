@@ -23,6 +23,8 @@ struct DepthSign
   bool decided = false;
   /// Large disparities are far: rows and columns both run backwards. Only if decided.
   bool reversed = false;
+  /// Of all but the nearest and the farthest twentieth of the image, as a first search found them.
+  DisparityRange range;
   int votes = 0;
   double share = 0.5;         ///< of the votes, for large disparities being near
   double significance = 0.0;  ///< positive where large disparities are near

@@ -67,6 +67,18 @@ struct CameraOptions
   std::optional<double> focus_distance_m;  ///< of the plane of zero disparity; parallel cameras if absent
 };
 
+/// What the order and the flip of a dataset come from.
+enum class LayoutSource
+{
+  Option,       ///< at least one of the two
+  Description,  ///< light_field.yaml, a toolbox's own file, or camera positions
+  Images,       ///< found from the images, which agree with the names or overrule them
+  Names         ///< the usual meaning of the names; the images did not tell
+};
+
+/// "option", "description", "images", "names".
+std::string toString(LayoutSource source);
+
 /// How a folder is read.
 struct DatasetOptions
 {
@@ -90,10 +102,11 @@ struct Dataset
   /// View::grid has the files' numbers, reversed where rows or columns are flipped. View::steps follow the
   /// numbers also where views are missing in between: disparities are always per step of the numbering.
   LightField light_field;
-  std::string format;                           ///< "yaml", "hci", "grid", "index", ...: docs/formats.md
-  PlaceClaim place_claim = PlaceClaim::Stated;  ///< before options and images were asked
-  Order order = Order::RowMajor;                ///< that was applied
-  Flip flip = Flip::None;                       ///< that was applied
+  std::string format;                                ///< "yaml", "hci", "grid", "index", ...: docs/formats.md
+  PlaceClaim place_claim = PlaceClaim::Stated;       ///< before options and images were asked
+  Order order = Order::RowMajor;                     ///< that was applied
+  Flip flip = Flip::None;                            ///< that was applied
+  LayoutSource layout_source = LayoutSource::Names;  ///< of both
   std::size_t views_found = 0;               ///< in the folder; DatasetOptions::selection may leave some out
   std::vector<std::filesystem::path> files;  ///< of LightField::views, in their order
   std::optional<DisparityRange> disparity_range;  ///< as the dataset's description states it, in px per step

@@ -11,6 +11,7 @@
 #include "light_field_depth/core/light_field.h"
 #include "light_field_depth/core/pipeline.h"
 #include "light_field_depth/core/run_context.h"
+#include "light_field_depth/evaluation/verdict.h"
 #include "light_field_depth/io/map_files.h"
 
 namespace light_field_depth
@@ -31,7 +32,10 @@ struct RunReport
 {
   std::string input;                              ///< folder that was read
   std::string format;                             ///< Dataset::format
+  std::string order;                              ///< Dataset::order
   std::string flip;                               ///< Dataset::flip
+  std::string layout_source;                      ///< Dataset::layout_source
+  std::vector<std::string> notes;                 ///< Dataset::notes
   PipelineOptions options;                        ///< in effect
   std::size_t views_found = 0;                    ///< in the folder
   std::size_t views_used = 0;                     ///< by the method
@@ -50,6 +54,7 @@ struct RunReport
   std::optional<double> photometric_error;  ///< PhotometricError::mean
   std::optional<double> photometric_error_of_medians;  ///< PhotometricError::mean_of_medians
   std::optional<Png16Scale> disparity_png16;           ///< of disparity_16.png
+  Verdict verdict;                                     ///< whether the result can be right
   std::vector<std::string> files;                      ///< written, relative to the output folder
 };
 

@@ -272,7 +272,7 @@ cv::Mat symmetricDisparity(const LightField& light_field, ThreadPool& pool)
 }
 
 /// Between the nearest and the farthest twentieth of the image.
-double spreadOf(const cv::Mat& disparity)
+DisparityRange rangeOf(const cv::Mat& disparity)
 {
   std::vector<float> values;
   for (int y = 0; y < disparity.rows; y += 4)
@@ -286,7 +286,7 @@ double spreadOf(const cv::Mat& disparity)
   std::nth_element(values.begin(), values.begin() + twentieth, values.end());
   const float least = values[static_cast<std::size_t>(twentieth)];
   std::nth_element(values.begin(), values.end() - 1 - twentieth, values.end());
-  return std::max(static_cast<double>(*(values.end() - 1 - twentieth)) - least, 1e-3);
+  return {least, *(values.end() - 1 - twentieth)};
 }
 
 LightField inGrey(const LightField& light_field)
@@ -310,7 +310,8 @@ DepthSign findDepthSign(const LightField& light_field, ThreadPool& pool, const D
     return {};
   }
   const cv::Mat disparity = symmetricDisparity(near, pool);
-  const double max_steps = MAX_RELATIVE_MOVE_PX / spreadOf(disparity);
+  const DisparityRange range = rangeOf(disparity);
+  const double max_steps = MAX_RELATIVE_MOVE_PX / std::max(range.max - range.min, 1e-3F);
   Votes votes(grey, disparity);
   for (const bool horizontal : {true, false})
   {
@@ -319,7 +320,9 @@ DepthSign findDepthSign(const LightField& light_field, ThreadPool& pool, const D
       votes.look(*line);
     }
   }
-  return votes.count(options);
+  DepthSign sign = votes.count(options);
+  sign.range = range;
+  return sign;
 }
 
 }  // namespace light_field_depth
