@@ -74,7 +74,7 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
           node_handle, private_node_handle, parameters_,
           [this](FrameSet set) { queue_.push(std::move(set)); }, [this] { queue_.setHeldBack(false); }),
       assembler_(parameters_.array, parameters_.calibration, parameters_.use_camera_info),
-      pipeline_(parameters_.threads)
+      pipeline_(parameters_.threads), result_watch_(parameters_.check_order)
 {
   queue_.setHeldBack(parameters_.use_camera_info);
   {
@@ -228,6 +228,10 @@ void DepthNode::Implementation::process(const FrameSet& set, const Subscribers& 
   products->info = infos[parameters_.array.reference];
   report.computed = std::chrono::steady_clock::now();
   publication_.run([this, products, report] { publishSafely(*products, report); });
+  if (const auto doubts = result_watch_.look(light_field, products->result.estimate, report.computed))
+  {
+    diagnostics_.setDoubts(*doubts);
+  }
 }
 
 FrameProducts DepthNode::Implementation::compute(const LightField& light_field, const NodeSettings& settings,

@@ -23,6 +23,7 @@
 #include "ros/node_diagnostics.h"
 #include "ros/node_parameters.h"
 #include "ros/result_publisher.h"
+#include "ros/result_watch.h"
 #include "ros/settings.h"
 #include "ros/view_input.h"
 
@@ -73,6 +74,7 @@ private:
   ViewInput input_;
   LightFieldAssembler assembler_;  ///< used by the worker alone
   Pipeline pipeline_;              ///< used by the worker alone, but for cancel()
+  ResultWatch result_watch_;       ///< used by the worker alone
   MessagePool<sensor_msgs::PointCloud2> organized_clouds_;
   MessagePool<sensor_msgs::PointCloud2> dense_clouds_;
 

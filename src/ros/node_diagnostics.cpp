@@ -21,6 +21,7 @@ NodeDiagnostics::NodeDiagnostics(const ros::NodeHandle& node_handle,
   updater_.setHardwareID("none");
   updater_.add("input", this, &NodeDiagnostics::reportInput);
   updater_.add("frames", this, &NodeDiagnostics::reportFrames);
+  updater_.add("result", this, &NodeDiagnostics::reportResult);
 }
 
 void NodeDiagnostics::framePublished(double latency_ms)
@@ -50,6 +51,19 @@ void NodeDiagnostics::warn(const std::string& sentence)
   if (isNews(sentence))
   {
     ROS_WARN_STREAM(sentence);
+  }
+}
+
+void NodeDiagnostics::setDoubts(const std::vector<std::string>& sentences)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  doubts_ = sentences;
+  for (const std::string& sentence : sentences)
+  {
+    if (isNews(sentence))
+    {
+      ROS_WARN_STREAM(sentence);
+    }
   }
 }
 
@@ -105,6 +119,18 @@ void NodeDiagnostics::reportInput(diagnostic_updater::DiagnosticStatusWrapper& s
   {
     status.add("most often missing, index of the view", worst - input_.views.begin());
     status.add("most often missing, times", worst->missing);
+  }
+}
+
+void NodeDiagnostics::reportResult(diagnostic_updater::DiagnosticStatusWrapper& status)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status.summary(doubts_.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                 doubts_.empty() ? "Nothing gives to doubt." : doubts_.front());
+  status.add("doubts", doubts_.size());
+  for (std::size_t i = 1; i < doubts_.size(); ++i)
+  {
+    status.add("doubt " + std::to_string(i + 1), doubts_[i]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
@@ -29,6 +30,9 @@ public:
   /// Something that should be looked at, logged likewise.
   void warn(const std::string& sentence);
 
+  /// What gives to doubt in the results of late; empty if nothing does. New sentences are logged.
+  void setDoubts(const std::vector<std::string>& sentences);
+
   std::uint64_t framesPublished() const;
   std::uint64_t framesFailed() const;
   RecentFrames::Summary recentFrames() const;
@@ -39,6 +43,7 @@ public:
 private:
   void reportInput(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportResult(diagnostic_updater::DiagnosticStatusWrapper& status);
   bool isNews(const std::string& sentence)
   {
     return logged_.isNews(sentence, std::chrono::steady_clock::now());
@@ -50,6 +55,7 @@ private:
   RecentFrames recent_;
   std::string last_failure_;  ///< empty after a frame that went well
   std::string last_warning_;  ///< likewise
+  std::vector<std::string> doubts_;
   LogThrottle logged_;
 
   // Used by update() alone.

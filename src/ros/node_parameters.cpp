@@ -136,6 +136,7 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   {
     checkTransport(private_node_handle, parameters.image_transport);
   }
+  read(private_node_handle, "check_order", parameters.check_order);
   readInRange(private_node_handle, "patience", 0.1, 1e6, parameters.patience_s);
   return parameters;
 }

@@ -47,6 +47,10 @@ struct NodeParameters
   /// `image_transport` of the views.
   std::string image_transport = "raw";
 
+  /// `check_order`: whether the places of the views are held against the images of the first frames. Only
+  /// warns.
+  bool check_order = true;
+
   /// `patience`, in seconds: how long without a whole set until a warning says what is missing.
   double patience_s = 5.0;
 };
