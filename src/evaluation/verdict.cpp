@@ -128,6 +128,12 @@ void judgeAgreement(const ViewSamples& samples, const VerdictOptions& options, V
             "expose longer or light the scene.");
     return;
   }
+  if (texture < options.min_texture_for_agreement)
+  {
+    add(verdict, "texture", false, texture,
+        "Only " + percent(texture) + " of the reference view has contrast above its noise.");
+    return;
+  }
   const double agreement = static_cast<double>(samples.agreeing) / samples.textured;
   const bool poor = agreement < options.min_agreement;
   add(verdict, "agreement", poor, agreement,

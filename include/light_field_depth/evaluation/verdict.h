@@ -45,8 +45,8 @@ struct VerdictOptions
   double min_agreement = 0.55;
   /// A view is doubted if it agrees at less than this share of them, and at less than this share of what the
   /// median view does.
-  double min_view_agreement = 0.45;
-  double min_relative_view_agreement = 0.6;
+  double min_view_agreement = 0.30;
+  double min_relative_view_agreement = 0.5;
   /// Pixels that a view is off its place on the whole.
   double max_misregistration_px = 0.6;
   /// Share of the pixels with contrast at one end of the range that was searched.
@@ -57,7 +57,9 @@ struct VerdictOptions
   /// Standard deviation of a view's grey levels.
   double min_contrast_levels = 1.0;
   /// Share of the pixels that have contrast at all.
-  double min_texture = 0.01;
+  double min_texture = 0.002;
+  /// Fewer pixels with contrast say nothing of the agreement.
+  double min_texture_for_agreement = 0.03;
 };
 
 /// Judges a result by the views that it came from: whether they agree with each other at the disparities

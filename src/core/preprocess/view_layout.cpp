@@ -182,23 +182,37 @@ LineCosts sweepLines(const cv::Mat& reference, const std::vector<SweptView>& hor
   return lines;
 }
 
+/// Is it clear enough by itself?
+bool isClear(const FoundLayout& found, double min_ratio, const LayoutOptions& options)
+{
+  return found.ratio >= min_ratio && found.significance >= options.min_significance &&
+         found.match <= options.max_match;
+}
+
 /// The opinion with the largest difference counts. Where views at least as far away contradict, it has to be
-/// the clearer: what is true shows the better, the farther the views stand apart.
+/// the clearer: what is true shows the better, the farther the views stand apart. A clear contradiction, as
+/// that of two views that have changed places, leaves the layout open.
 FoundLayout decide(const std::vector<Opinion>& opinions, const LayoutOptions& options)
 {
   const auto strongest =
       std::max_element(opinions.begin(), opinions.end(),
                        [](const Opinion& a, const Opinion& b) { return a.difference < b.difference; });
   FoundLayout found = strongest->found;
-  const bool contradicted = std::any_of(opinions.begin(), opinions.end(),
-                                        [&](const Opinion& other)
-                                        {
-                                          return other.distance >= strongest->distance &&
-                                                 other.found.match <= options.max_match &&
-                                                 !(other.found.layout == found.layout);
-                                        });
-  found.decided = found.ratio >= (contradicted ? options.min_contradicted_ratio : options.min_ratio) &&
-                  found.significance >= options.min_significance && found.match <= options.max_match;
+  double min_ratio = options.min_ratio;
+  bool clearly_contradicted = false;
+  for (const Opinion& other : opinions)
+  {
+    if (other.found.layout == found.layout)
+    {
+      continue;
+    }
+    clearly_contradicted = clearly_contradicted || isClear(other.found, options.min_ratio, options);
+    if (other.distance >= strongest->distance && other.found.match <= options.max_match)
+    {
+      min_ratio = options.min_contradicted_ratio;
+    }
+  }
+  found.decided = !clearly_contradicted && isClear(found, min_ratio, options);
   return found;
 }
 
