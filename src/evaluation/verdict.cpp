@@ -174,7 +174,7 @@ void judgeViews(const LightField& light_field, const ViewSamples& samples, const
     {
       continue;
     }
-    if (view.share() < options.min_view_agreement &&
+    if (*middle >= options.min_agreement && view.share() < options.min_view_agreement &&
         view.share() < options.min_relative_view_agreement * *middle)
     {
       add(verdict, "view", true, view.share(),

@@ -12,15 +12,20 @@ namespace light_field_depth
 namespace
 {
 constexpr int MAX_PIXELS = 3000;
-constexpr int MAX_VIEWS = 24;
+constexpr std::size_t MAX_VIEWS = 24;
+/// Pixels are judged by the views that show the same surfaces.
+constexpr std::size_t NEAR_VIEWS = 8;
 constexpr int BORDER_PX = 4;
 /// A patch of 3 x 3 pixels, two pixels apart.
 constexpr int PATCH_SIDE = 3;
 constexpr int PATCH_PITCH_PX = 2;
 constexpr std::size_t PATCH_SIZE = 9;
-/// Mean difference of two patches over the contrast of the reference's: that of unrelated patches is about
-/// 1.3, that of the same patch with noise of a third of the contrast about 0.4.
+/// Mean difference of two patches that still agree, in terms of the contrast of the reference's and of the
+/// noise: that of unrelated patches is about 1.3 times the contrast.
 constexpr float MAX_MISMATCH = 0.6F;
+constexpr float MISMATCH_OF_NOISE = 0.5F;
+/// Patches that differ more than this, in terms of the contrast, do not tell the shift of their view.
+constexpr float MAX_SHIFTED_MISMATCH = 1.2F;
 /// A patch has contrast if it is so many times the noise, and so many levels.
 constexpr float MIN_CONTRAST_IN_NOISE = 1.5F;
 constexpr float MIN_CONTRAST_LEVELS = 2.0F;
@@ -113,6 +118,11 @@ struct TexturedPixel
   Patch gradient_y{};
 };
 
+float tolerance(const TexturedPixel& pixel, float noise)
+{
+  return MAX_MISMATCH * pixel.contrast + MISMATCH_OF_NOISE * noise;
+}
+
 /// The least squares for the shift of a view.
 struct ShiftEquations
 {
@@ -195,7 +205,7 @@ std::vector<TexturedPixel> texturedPixels(const cv::Mat& reference, const cv::Ma
   return pixels;
 }
 
-/// At most MAX_VIEWS of the views, evenly, without the reference.
+/// At most MAX_VIEWS of the views without the reference: the nearest ones, then others, evenly.
 std::vector<std::size_t> chosenViews(const LightField& light_field)
 {
   std::vector<std::size_t> others;
@@ -206,22 +216,27 @@ std::vector<std::size_t> chosenViews(const LightField& light_field)
       others.push_back(i);
     }
   }
+  const auto distance = [&](std::size_t i)
+  { return std::hypot(light_field.views[i].steps.x, light_field.views[i].steps.y); };
+  std::stable_sort(others.begin(), others.end(),
+                   [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
   if (others.size() <= MAX_VIEWS)
   {
     return others;
   }
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < MAX_VIEWS; ++i)
+  std::vector<std::size_t> chosen(others.begin(), others.begin() + NEAR_VIEWS);
+  const std::size_t rest = others.size() - NEAR_VIEWS;
+  for (std::size_t i = 0; i < MAX_VIEWS - NEAR_VIEWS; ++i)
   {
-    chosen.push_back(others[i * others.size() / MAX_VIEWS]);
+    chosen.push_back(others[NEAR_VIEWS + i * rest / (MAX_VIEWS - NEAR_VIEWS)]);
   }
   return chosen;
 }
 
 constexpr float OUTSIDE = -1.0F;
 
-/// @param mismatches one for each pixel: difference over contrast, or OUTSIDE
-ViewAgreement compare(const View& view, const std::vector<TexturedPixel>& pixels,
+/// @param mismatches one for each pixel: difference in levels, or OUTSIDE
+ViewAgreement compare(const View& view, const std::vector<TexturedPixel>& pixels, float noise,
                       std::vector<float>& mismatches)
 {
   ViewAgreement agreement;
@@ -239,10 +254,13 @@ ViewAgreement compare(const View& view, const std::vector<TexturedPixel>& pixels
     }
     centre(seen);
     ++agreement.seen;
-    mismatches[i] = differenceOf(seen, pixel.patch) / pixel.contrast;
-    if (mismatches[i] <= MAX_MISMATCH)
+    mismatches[i] = differenceOf(seen, pixel.patch);
+    if (mismatches[i] <= tolerance(pixel, noise))
     {
       ++agreement.agreeing;
+    }
+    if (mismatches[i] <= MAX_SHIFTED_MISMATCH * pixel.contrast)
+    {
       equations.add(pixel, seen);
     }
   }
@@ -256,9 +274,9 @@ ViewSamples sampleViews(const LightField& light_field, const cv::Mat& disparity,
 {
   ViewSamples samples;
   const cv::Mat& reference = light_field.reference().image;
-  samples.noise_levels = estimateNoise(reference);
-  const std::vector<TexturedPixel> pixels =
-      texturedPixels(reference, disparity, static_cast<float>(samples.noise_levels), samples.pixels);
+  const float noise = estimateNoise(reference);
+  samples.noise_levels = noise;
+  const std::vector<TexturedPixel> pixels = texturedPixels(reference, disparity, noise, samples.pixels);
   samples.textured = static_cast<int>(pixels.size());
   const std::vector<std::size_t> chosen = chosenViews(light_field);
   samples.views.resize(chosen.size());
@@ -268,7 +286,7 @@ ViewSamples sampleViews(const LightField& light_field, const cv::Mat& disparity,
                    {
                      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
                      {
-                       samples.views[i] = compare(light_field.views[chosen[i]], pixels, mismatches[i]);
+                       samples.views[i] = compare(light_field.views[chosen[i]], pixels, noise, mismatches[i]);
                        samples.views[i].view_index = chosen[i];
                      }
                    });
@@ -277,11 +295,11 @@ ViewSamples sampleViews(const LightField& light_field, const cv::Mat& disparity,
   {
     samples.disparities.push_back(pixels[p].disparity);
     of_pixel.clear();
-    for (const std::vector<float>& of_view : mismatches)
+    for (std::size_t i = 0; i < std::min(mismatches.size(), NEAR_VIEWS); ++i)
     {
-      if (of_view[p] != OUTSIDE)
+      if (mismatches[i][p] != OUTSIDE)
       {
-        of_pixel.push_back(of_view[p]);
+        of_pixel.push_back(mismatches[i][p]);
       }
     }
     if (of_pixel.empty())
@@ -290,8 +308,8 @@ ViewSamples sampleViews(const LightField& light_field, const cv::Mat& disparity,
     }
     const auto middle = of_pixel.begin() + static_cast<std::ptrdiff_t>(of_pixel.size() / 2);
     std::nth_element(of_pixel.begin(), middle, of_pixel.end());
-    samples.agreeing += *middle <= MAX_MISMATCH ? 1 : 0;
-    samples.difference_levels += *middle * pixels[p].contrast / static_cast<double>(pixels.size());
+    samples.agreeing += *middle <= tolerance(pixels[p], noise) ? 1 : 0;
+    samples.difference_levels += *middle / static_cast<double>(pixels.size());
   }
   return samples;
 }

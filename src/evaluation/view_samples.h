@@ -17,7 +17,7 @@ struct ViewAgreement
   std::size_t view_index = 0;  ///< into LightField::views
   int seen = 0;                ///< pixels with contrast that are inside of it
   int agreeing = 0;            ///< of them
-  cv::Point2d shift_px;        ///< by which it is off its place on the whole, at pixels that agree
+  cv::Point2d shift_px;        ///< by which it is off its place on the whole
 
   double share() const { return seen > 0 ? static_cast<double>(agreeing) / seen : 0.0; }
 };
@@ -27,8 +27,8 @@ struct ViewSamples
 {
   int pixels = 0;                    ///< looked at
   int textured = 0;                  ///< of them, those with contrast, and finite disparity
-  int agreeing = 0;                  ///< of those, with which most views agree
-  double difference_levels = 0.0;    ///< mean over textured pixels of the median over the views
+  int agreeing = 0;                  ///< of those, with which most of the nearest views agree
+  double difference_levels = 0.0;    ///< mean over textured pixels of the median over these views
   double noise_levels = 0.0;         ///< of the reference
   std::vector<ViewAgreement> views;  ///< without the reference
   std::vector<float> disparities;    ///< of the textured pixels

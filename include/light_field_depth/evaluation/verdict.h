@@ -41,8 +41,8 @@ struct Verdict
 /// Limits of the checks, set on light fields of real cameras, rendered ones and spoiled ones.
 struct VerdictOptions
 {
-  /// Share of the pixels with contrast at which most views agree; less is a warning.
-  double min_agreement = 0.55;
+  /// Share of the pixels with contrast at which most of the nearest views agree; less is a warning.
+  double min_agreement = 0.50;
   /// A view is doubted if it agrees at less than this share of them, and at less than this share of what the
   /// median view does.
   double min_view_agreement = 0.30;
