@@ -146,6 +146,11 @@ std::string contradictionText(const ImageEvidence& evidence, const DatasetOption
 /// The grid that the images tell, or a guess. Says which it is.
 cv::Size foundGrid(FolderDescription& description, int count, ViewStore& store)
 {
+  constexpr int MIN_VIEWS_OF_GRID = 4;
+  if (count < MIN_VIEWS_OF_GRID)
+  {
+    return guessedGrid(count);  // a row: nothing to choose from
+  }
   std::vector<ViewFile> views = description.views;
   std::sort(views.begin(), views.end(),
             [](const ViewFile& a, const ViewFile& b) { return a.number.column < b.number.column; });
