@@ -287,33 +287,35 @@ std::vector<MisSetCase> lightFieldsThatAreWrong()
   };
 }
 
-struct Judged
-{
-  Verdict order;
-  Verdict result;
-
-  bool isDoubtful() const { return order.isDoubtful() || result.isDoubtful(); }
-};
-
-Judged judge(const LightField& field, const std::optional<DisparityRange>& range)
+Verdict judgedByResult(const LightField& field, const std::optional<DisparityRange>& range)
 {
   static Pipeline pipeline(2);
   static ThreadPool pool(2);
   PipelineOptions options;
   options.multiview.preset = MultiviewPreset::Realtime;
   options.disparity_range = range;
-  return {judgeOrder(field, pool), judgeResult(field, pipeline.run(field, options, {}).estimate, pool)};
+  return judgeResult(field, pipeline.run(field, options, {}).estimate, pool);
 }
 
-std::string warningsOf(const Judged& judged)
+Verdict judgedByOrder(const LightField& field, bool with_layout)
+{
+  static ThreadPool pool(2);
+  return judgeOrder(field, pool, with_layout);
+}
+
+/// The cheap checks come first: most cases need no more.
+bool isWarnedAbout(const LightField& field, const std::optional<DisparityRange>& range)
+{
+  return judgedByOrder(field, false).isDoubtful() || judgedByResult(field, range).isDoubtful() ||
+         judgedByOrder(field, true).isDoubtful();
+}
+
+std::string warningsOf(const Verdict& verdict)
 {
   std::string text;
-  for (const Verdict* verdict : {&judged.order, &judged.result})
+  for (const std::string& warning : verdict.warnings())
   {
-    for (const std::string& warning : verdict->warnings())
-    {
-      text += "\n  " + warning;
-    }
+    text += "\n  " + warning;
   }
   return text;
 }
@@ -328,21 +330,32 @@ TEST(Verdict, EveryMisSetCaseIsWarnedAbout)
     {
       LightField field = right;
       mis_set.spoil(field);
-      EXPECT_TRUE(judge(field, mis_set.range).isDoubtful()) << mis_set.name;
+      EXPECT_TRUE(isWarnedAbout(field, mis_set.range)) << mis_set.name;
       ++cases;
     }
   }
   EXPECT_GE(cases, 40);
 }
 
+void expectNoWarning(const LightField& field, const std::string& name)
+{
+  for (const Verdict& verdict : {judgedByOrder(field, true), judgedByResult(field, std::nullopt)})
+  {
+    EXPECT_FALSE(verdict.isDoubtful()) << name << warningsOf(verdict);
+  }
+}
+
 TEST(Verdict, NoRightLightFieldIsWarnedAbout)
 {
-  const Judged standard = judge(rightLightField(), std::nullopt);
-  EXPECT_FALSE(standard.isDoubtful()) << warningsOf(standard);
-  for (const testing::NamedScene& scene : testing::namedScenes())
+  expectNoWarning(rightLightField(), "standard scene");
+  // One of each kind of difficulty: repeats, no texture, large steps, noise, brightness, hiding, one row.
+  for (testing::NamedScene scene :
+       {testing::repeatedTexture(), testing::gradients(), testing::sparseArray(), testing::darkAndNoisy(),
+        testing::exposureDifferences(), testing::strongOcclusion(), testing::singleRow()})
   {
-    const Judged judged = judge(scene.render().light_field, std::nullopt);
-    EXPECT_FALSE(judged.isDoubtful()) << scene.name << warningsOf(judged);
+    // Without mixed pixels at edges, which only a measure of accuracy needs.
+    scene.settings.samples = 1;
+    expectNoWarning(scene.render().light_field, scene.name);
   }
 }
 
@@ -350,7 +363,7 @@ TEST(Verdict, NamesTheViewThatIsOfAnotherScene)
 {
   LightField field = rightLightField();
   otherScene({at(2, 4)})(field);
-  const std::string warnings = warningsOf(judge(field, std::nullopt));
+  const std::string warnings = warningsOf(judgedByOrder(field, false));
   EXPECT_NE(warnings.find("view (2, 4)"), std::string::npos) << warnings;
 }
 
@@ -358,7 +371,7 @@ TEST(Verdict, SaysWhereASwappedViewBelongs)
 {
   LightField field = rightLightField();
   exchange(at(2, 0), at(2, 4))(field);
-  const std::string warnings = warningsOf(judge(field, std::nullopt));
+  const std::string warnings = warningsOf(judgedByOrder(field, false));
   EXPECT_NE(warnings.find("view (2, 0) fits the place (2, 4)"), std::string::npos) << warnings;
 }
 
