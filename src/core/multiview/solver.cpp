@@ -265,6 +265,9 @@ void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
   context.save("multiview_curvature", linearization_.weight);
   context.save("multiview_residual", linearization_.residual);
   context.save("multiview_disagreement", linearization_.disagreement);
+  context.save("multiview_target", linearization_.target);
+  context.save("multiview_searched", searched_);
+  context.save("multiview_first_search", first_search_);
   const StageTimer timer(context, "confidence");
   estimateConfidence({disparity_, searched_, first_search_, linearization_, settings.noise_sigma},
                      context.pool, confidence_);

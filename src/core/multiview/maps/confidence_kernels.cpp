@@ -21,7 +21,11 @@ constexpr float NEAR_EDGE_WEIGHT = 4.0F;  // in 5 x 5 pixels
 constexpr float EDGE_FROM_PX = 0.05F;
 constexpr float NEAR_EDGE_FROM_PX = 0.1F;
 constexpr float EDGE_WIDTH_PX = 0.3F;
-constexpr float UNCERTAINTY_WEIGHT = 20.0F;  // of 1 / sqrt(curvature)
+constexpr float UNCERTAINTY_WEIGHT = 20.0F;  // of 1 / sqrt(1 + weight of the data in units of LITTLE_DATA)
+/// The smoothing carries far, so that a surface is known where its data weigh little; it is not where they
+/// weigh next to nothing. Measured with scripts/fit_confidence.py: with 1 instead of 1/64 the area above the
+/// ideal order (AUSE, BadPix 0.07) is 0.182 instead of 0.179 on the demo and twice as large on clean renders.
+constexpr float LITTLE_DATA = 1.0F / 64.0F;
 constexpr float DISAGREEMENT_WEIGHT = 25.0F;
 constexpr float DISAGREEMENT_LIMIT_PX = 0.3F;
 constexpr float PULL_WEIGHT = 18.0F;  // from the views' minimum to the smooth surface
@@ -60,7 +64,7 @@ void weighEvidenceSimd(const EvidenceRow& row, float* against)
         const auto add = [&](float weight, auto value) { sum = hn::Add(sum, hn::Mul(set(weight), value)); };
         add(EDGE_WEIGHT, ramp(hn::Sub(at(row.high), at(row.low)), EDGE_FROM_PX));
         add(NEAR_EDGE_WEIGHT, ramp(hn::Sub(at(row.wide_high), at(row.wide_low)), NEAR_EDGE_FROM_PX));
-        const auto precision = hn::Sqrt(hn::Add(at(row.weight), set(1.0F)));
+        const auto precision = hn::Sqrt(hn::Add(hn::Mul(at(row.weight), set(1.0F / LITTLE_DATA)), set(1.0F)));
         sum = hn::Add(sum, hn::Div(set(UNCERTAINTY_WEIGHT), precision));
         const auto distance = [&](const float* one, const float* other, float limit)
         { return hn::Min(hn::Abs(hn::Sub(at(one), at(other))), set(limit)); };
@@ -109,7 +113,7 @@ void weighEvidencePlain(const EvidenceRow& row, float* against)
     against[x] =
         BASE + EDGE_WEIGHT * ramp(row.high[x] - row.low[x], EDGE_FROM_PX, EDGE_WIDTH_PX) +
         NEAR_EDGE_WEIGHT * ramp(row.wide_high[x] - row.wide_low[x], NEAR_EDGE_FROM_PX, EDGE_WIDTH_PX) +
-        UNCERTAINTY_WEIGHT / std::sqrt(row.weight[x] + 1.0F) +
+        UNCERTAINTY_WEIGHT / std::sqrt(row.weight[x] * (1.0F / LITTLE_DATA) + 1.0F) +
         DISAGREEMENT_WEIGHT * std::min(row.disagreement[x], DISAGREEMENT_LIMIT_PX) +
         PULL_WEIGHT * std::min(pull, PULL_LIMIT_PX) + MOVE_WEIGHT * std::min(move, MOVE_LIMIT_PX) +
         CHANGE_WEIGHT * std::min(change, CHANGE_LIMIT_PX) + RESIDUAL_WEIGHT * std::max(0.0F, unexplained);

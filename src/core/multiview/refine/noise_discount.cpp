@@ -105,12 +105,12 @@ void NoiseDiscount::findShare(const NoiseDiscountSettings& settings, ThreadPool&
   const auto boxSum = [&](const cv::Mat& sums, int row, std::vector<float>& columns, std::vector<float>& box)
   {
     std::array<const float*, 2 * REACH_CELLS + 1> rows{};
-    int from = row - REACH_CELLS;
-    for (const float*& cells : rows)
+    int count = 0;
+    for (int y = std::max(row - REACH_CELLS, 0); y <= std::min(row + REACH_CELLS, sums.rows - 1); ++y)
     {
-      cells = sums.ptr<float>(std::clamp(from++, 0, sums.rows - 1));
+      rows[static_cast<std::size_t>(count++)] = sums.ptr<float>(y);
     }
-    sumRows(rows.data(), static_cast<int>(rows.size()), columns.size(), columns.data());
+    sumRows(rows.data(), count, columns.size(), columns.data());
     boxRow(columns.data(), width, REACH_CELLS, box.data());
   };
   const float ramp = 1.0F / (settings.full_from - settings.nothing_below);
