@@ -8,6 +8,11 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// How far a refined disparity may lie outside the labels, in pixels: slopes of surfaces at the end of the
+/// range go on.
+constexpr float REFINEMENT_REACH_PX = 1.0F;
+constexpr int ROWS_PER_CHUNK = 32;
+
 /// Bytes hold labels plus VISIBILITY_BIAS; below MAX_VISIBILITY_LABELS.
 constexpr int MAX_LABELS = 240;
 /// A later search tries the labels that the one before found within so many pixels of a tile, and so many
@@ -245,7 +250,31 @@ void Solver::refine(const SolverSettings& settings, RunContext& context)
     linearize(settings, context);
     const StageTimer timer(context, "smooth");
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity_);
+    keepNearLabels(context);
   }
+}
+
+/// Where nothing is known and the image cuts a line of pixels off from the others, the equations of the
+/// smoothing are singular but for rounding: what leaves the range of the search, or is no number, is as it
+/// was searched.
+void Solver::keepNearLabels(RunContext& context)
+{
+  const float low = labels_.first_px - REFINEMENT_REACH_PX;
+  const float high = labels_.disparity(static_cast<float>(labels_.count - 1)) + REFINEMENT_REACH_PX;
+  context.pool.parallelFor(0, disparity_.rows, ROWS_PER_CHUNK,
+                           [&](int first, int last)
+                           {
+                             for (int y = first; y < last; ++y)
+                             {
+                               auto* const row = disparity_.ptr<float>(y);
+                               const auto* const searched = searched_.ptr<float>(y);
+                               for (int x = 0; x < disparity_.cols; ++x)
+                               {
+                                 const bool kept = row[x] >= low && row[x] <= high;
+                                 row[x] = kept ? row[x] : searched[x];
+                               }
+                             }
+                           });
 }
 
 void Solver::linearize(const SolverSettings& settings, RunContext& context)

@@ -96,6 +96,7 @@ private:
   void fuseBackground(const SolverSettings& settings, RunContext& context);
   void refine(const SolverSettings& settings, RunContext& context);
   void linearize(const SolverSettings& settings, RunContext& context);
+  void keepNearLabels(RunContext& context);
   void rateConfidence(const SolverSettings& settings, RunContext& context);
   const PlanarImage& guide() const
   {

@@ -347,5 +347,30 @@ TEST(MultiviewEstimator, ALargeLightFieldIsSolvedCoarseToFine)
   }
 }
 
+/// Noise leaves the refinement without data, stripes without links: its equations are nearly singular.
+TEST(MultiviewEstimator, IsFiniteWhereNothingIsKnown)
+{
+  const DisparityRange range{-1.0F, 1.0F};
+  for (const bool striped : {false, true})
+  {
+    LightField light_field = standardLightField(crossSettings()).light_field;
+    cv::RNG random(7);
+    for (View& view : light_field.views)
+    {
+      cv::Mat image(view.image.size(), CV_8UC3, cv::Scalar::all(128));
+      for (int y = 0; striped && y < image.rows; y += 2)
+      {
+        image.row(y).setTo(cv::Scalar::all(40));
+      }
+      cv::Mat noise(image.size(), CV_16SC3);
+      random.fill(noise, cv::RNG::NORMAL, 0, striped ? 15 : 40);
+      cv::add(image, noise, view.image, cv::noArray(), CV_8U);
+    }
+    const auto result = estimate(light_field, range);
+    EXPECT_TRUE(cv::checkRange(result.disparity, true, nullptr, -2.5, 2.5)) << "striped: " << striped;
+    EXPECT_TRUE(cv::checkRange(result.confidence, true, nullptr, 0.0, 1.0001)) << "striped: " << striped;
+  }
+}
+
 }  // namespace
 }  // namespace light_field_depth
