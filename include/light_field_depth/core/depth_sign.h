@@ -20,12 +20,12 @@ struct DepthSignOptions
 /// Which of the two ends of the disparities is near, as occlusions tell.
 struct DepthSign
 {
-  bool decided = false;
+  bool decided = false;  ///< false: the occlusions do not tell
   /// Large disparities are far: rows and columns both run backwards. Only if decided.
   bool reversed = false;
   /// Of all but the nearest and the farthest twentieth of the image, as a first search found them.
   DisparityRange range;
-  int votes = 0;
+  int votes = 0;              ///< depth edges that took a side
   double share = 0.5;         ///< of the votes, for large disparities being near
   double significance = 0.0;  ///< positive where large disparities are near
 };

@@ -12,9 +12,9 @@ namespace light_field_depth
 /// then they have changed roles.
 struct GridSymmetry
 {
-  bool rows_reversed = false;
-  bool columns_reversed = false;
-  bool transposed = false;
+  bool rows_reversed = false;     ///< the first row is the last
+  bool columns_reversed = false;  ///< the first column is the last
+  bool transposed = false;        ///< then rows are columns
 };
 
 std::vector<GridSymmetry> allGridSymmetries();
@@ -57,7 +57,7 @@ struct FoundLayout
 {
   /// False: the images do not tell, and `layout` is only the likeliest one.
   bool decided = false;
-  GridLayout layout;
+  GridLayout layout;          ///< the cheapest one
   double ratio = 1.0;         ///< see LayoutOptions::min_ratio; at least 1
   double significance = 0.0;  ///< see LayoutOptions::min_significance
   double match = 1.0;         ///< see LayoutOptions::max_match; 0 for a perfect match

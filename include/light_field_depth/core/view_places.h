@@ -28,25 +28,26 @@ struct ViewPlacesOptions
 /// A view that does not fit where it claims to stand.
 struct ViewDoubt
 {
+  /// Why it does not fit.
   enum class Kind
   {
     Misplaced,  ///< it fits at `better_place`
     Foreign     ///< it fits nowhere
   };
-  std::size_t view_index = 0;  ///< into LightField::views
-  Kind kind = Kind::Misplaced;
-  GridPosition better_place;
-  double cost = 0.0;       ///< at its own place
-  double best_cost = 0.0;  ///< at the best place
+  std::size_t view_index = 0;   ///< into LightField::views
+  Kind kind = Kind::Misplaced;  ///< which of the two
+  GridPosition better_place;    ///< where it fits best; only if misplaced
+  double cost = 0.0;            ///< at its own place
+  double best_cost = 0.0;       ///< at the best place
 };
 
 /// What the images say of the places of the single views.
 struct ViewPlaces
 {
-  bool checked = false;  ///< false: too little can be matched to tell
-  std::vector<ViewDoubt> doubts;
-  bool shuffled = false;  ///< so many are doubted that their order as a whole is
-  double median_cost = 0.0;
+  bool checked = false;           ///< false: too little can be matched to tell
+  std::vector<ViewDoubt> doubts;  ///< one for each view that does not fit
+  bool shuffled = false;          ///< so many are doubted that their order as a whole is
+  double median_cost = 0.0;       ///< of all views at their own places
 };
 
 /// Finds views that stand in another's place, or that show another scene.

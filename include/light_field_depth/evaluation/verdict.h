@@ -13,16 +13,17 @@ namespace light_field_depth
 /// One thing that was checked.
 struct Finding
 {
+  /// How much a finding says against the result.
   enum class Severity
   {
     Fine,     ///< for the record
     Warning,  ///< the result cannot be right, or not in all of the image
   };
 
-  std::string name;  ///< "agreement", "view", "registration", ...
-  Severity severity = Severity::Fine;
-  double value = 0.0;
-  std::string sentence;  ///< what it is; with the remedy if it is a warning
+  std::string name;                    ///< "agreement", "view", "registration", ...
+  Severity severity = Severity::Fine;  ///< what the limits of VerdictOptions make of `value`
+  double value = 0.0;                  ///< the figure that was checked, in the unit of its limit
+  std::string sentence;                ///< what it is; with the remedy if it is a warning
 };
 
 /// "fine", "warning".
@@ -31,8 +32,9 @@ std::string toString(Finding::Severity severity);
 /// Whether a result can be right.
 struct Verdict
 {
-  std::vector<Finding> findings;
+  std::vector<Finding> findings;  ///< of every check that could be made
 
+  /// Whether there is a warning among them.
   bool isDoubtful() const;
   /// The sentences of the warnings.
   std::vector<std::string> warnings() const;
@@ -46,14 +48,14 @@ struct VerdictOptions
   /// A view is doubted if it agrees at less than this share of them, and at less than this share of what the
   /// median view does.
   double min_view_agreement = 0.30;
-  double min_relative_view_agreement = 0.5;
+  double min_relative_view_agreement = 0.5;  ///< in parts of the agreement of the median view
   /// Pixels that a view is off its place on the whole.
   double max_misregistration_px = 0.6;
   /// Share of the pixels with contrast at one end of the range that was searched.
   double max_share_at_bound = 0.10;
   /// Grey levels between the first and the last hundredth of the pixels.
   double min_grey_levels = 8.0;
-  double min_grey_levels_after_conversion = 24.0;
+  double min_grey_levels_after_conversion = 24.0;  ///< of views that had sixteen bits
   /// Standard deviation of a view's grey levels.
   double min_contrast_levels = 1.0;
   /// Share of the pixels that have contrast at all.

@@ -216,8 +216,9 @@ private:
     if (std::isfinite(score))
     {
       const cv::Size size = disparity_.size();
-      Part& part = parts_[static_cast<std::size_t>(pixel.y * PARTS_PER_SIDE / size.height * PARTS_PER_SIDE +
-                                                   pixel.x * PARTS_PER_SIDE / size.width)];
+      const int part_row = pixel.y * PARTS_PER_SIDE / size.height;
+      const int index = part_row * PARTS_PER_SIDE + pixel.x * PARTS_PER_SIDE / size.width;
+      Part& part = parts_[static_cast<std::size_t>(index)];
       part.sum += std::clamp(score, -MAX_SCORE, MAX_SCORE);
       ++part.count;
     }

@@ -23,8 +23,9 @@ double differenceAt(const std::vector<cv::Mat>& thumbnails, int lag)
   const int pairs = static_cast<int>(thumbnails.size()) - lag;
   for (int i = 0; i < pairs; ++i)
   {
+    const int other = i + lag;
     const cv::Mat& a = thumbnails[static_cast<std::size_t>(i)];
-    const cv::Mat& b = thumbnails[static_cast<std::size_t>(i + lag)];
+    const cv::Mat& b = thumbnails[static_cast<std::size_t>(other)];
     sum += cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total());
   }
   return pairs > 0 ? sum / pairs : 0.0;
