@@ -101,7 +101,8 @@ double significanceOf(const std::vector<float>& best, const std::vector<float>& 
       {
         for (int x = bx * cells.width / BLOCKS_PER_SIDE; x < (bx + 1) * cells.width / BLOCKS_PER_SIDE; ++x)
         {
-          const auto i = static_cast<std::size_t>(y * cells.width + x);
+          const int index = y * cells.width + x;
+          const auto i = static_cast<std::size_t>(index);
           block += second[i] - best[i];
           ++count;
         }

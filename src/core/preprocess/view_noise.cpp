@@ -232,9 +232,10 @@ std::vector<std::size_t> nearestOfArms(const ViewSet& views)
   {
     for (const Arm& arm : views.arms)
     {
-      if (arm.first + k < arm.last && chosen.size() < VIEWS_COMPARED)
+      const int view = arm.first + k;
+      if (view < arm.last && chosen.size() < VIEWS_COMPARED)
       {
-        chosen.push_back(static_cast<std::size_t>(arm.first + k));
+        chosen.push_back(static_cast<std::size_t>(view));
       }
     }
   }
