@@ -1,0 +1,133 @@
+#include "tools/estimate_frame.h"
+
+#include <csignal>
+#include <string>
+
+#include "light_field_depth/core/thread_pool.h"
+#include "light_field_depth/evaluation/photometric_error.h"
+#include "light_field_depth/evaluation/verdict.h"
+#include "light_field_depth/io/files.h"
+#include "light_field_depth/io/intermediate_files.h"
+#include "tools/estimate_output.h"
+#include "tools/estimate_summary.h"
+#include "tools/progress_bar.h"
+#include "tools/stopwatch.h"
+
+namespace light_field_depth
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+Pipeline* running_pipeline = nullptr;
+
+/// Makes an interruption end the computation in order, so that no file is left half-written.
+class InterruptionGuard
+{
+public:
+  explicit InterruptionGuard(Pipeline& pipeline)
+  {
+    running_pipeline = &pipeline;
+    std::signal(SIGINT, stop);
+    std::signal(SIGTERM, stop);
+  }
+  ~InterruptionGuard()
+  {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    running_pipeline = nullptr;
+  }
+  InterruptionGuard(const InterruptionGuard&) = delete;
+  InterruptionGuard& operator=(const InterruptionGuard&) = delete;
+
+private:
+  static void stop(int /*signal*/) { running_pipeline->cancel(); }
+};
+
+PipelineResult runPipeline(Pipeline& pipeline, const EstimateArguments& arguments, const FrameWork& frame,
+                           const LightField& light_field, const PipelineOptions& options)
+{
+  const InterruptionGuard guard(pipeline);
+  ProgressBar progress;
+  pipeline.setProgressSink(
+      [&](const std::string& stage, double fraction) {
+        progress.show(stage,
+                      (static_cast<double>(frame.index) + fraction) / static_cast<double>(frame.count));
+      });
+  if (arguments.save_intermediate)
+  {
+    const fs::path folder = frame.output / "intermediate";
+    pipeline.setIntermediateSink([folder](const std::string& name, const cv::Mat& values)
+                                 { writeIntermediate(folder, name, values); });
+  }
+  ProductRequest request;
+  request.depth = true;
+  request.organized_cloud = true;
+  request.dense_cloud = arguments.dense;
+  return pipeline.run(light_field, options, request);
+}
+
+void describeResult(const PipelineResult& result, const PhotometricError& error, RunReport& report)
+{
+  report.views_used = result.estimate.views_used;
+  report.disparity_range = result.estimate.range;
+  report.stage_times = result.stage_times;
+  report.total_ms = result.total_ms;
+  report.photometric_error = error.mean;
+  report.photometric_error_of_medians = error.mean_of_medians;
+}
+
+/// What reading the dataset, the places of the views and the result give to doubt.
+Verdict judge(const Dataset& dataset, const DisparityEstimate& estimate, ThreadPool& pool)
+{
+  Verdict verdict;
+  for (const std::string& warning : dataset.warnings)
+  {
+    verdict.findings.push_back({"input", Finding::Severity::Warning, 1.0, warning});
+  }
+  for (const Verdict& more :
+       {judgeOrder(dataset.light_field, pool, false), judgeResult(dataset.light_field, estimate, pool)})
+  {
+    verdict.findings.insert(verdict.findings.end(), more.findings.begin(), more.findings.end());
+  }
+  return verdict;
+}
+
+}  // namespace
+
+bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& input, const FrameWork& frame,
+                   Pipeline& pipeline, RunReport report)
+{
+  const OutputOptions output = outputOptions(arguments.output_files);
+  const Dataset& dataset = input.dataset;
+  report.decode_ms = input.decode_ms;
+  describeInput(arguments.input, dataset, report);
+  if (report.options.disparity_range)
+  {
+    report.range_source = RangeSource::Given;
+  }
+  else if (arguments.stated_range && dataset.disparity_range)
+  {
+    report.options.disparity_range = dataset.disparity_range;
+    report.range_source = RangeSource::Dataset;
+  }
+  makeFolder(frame.output);
+  report.threads = pipeline.threads();
+  const PipelineResult result = runPipeline(pipeline, arguments, frame, dataset.light_field, report.options);
+  ThreadPool pool(report.threads);
+  describeResult(result, photometricError(dataset.light_field, result.estimate.disparity, pool), report);
+
+  const Stopwatch verdict_watch;
+  report.verdict = judge(dataset, result.estimate, pool);
+  report.stage_times.push_back({"verdict", verdict_watch.milliseconds()});
+
+  const Stopwatch write_watch;
+  writeResults(frame.output, result, dataset.light_field.reference().image, output, report);
+  report.write_ms = write_watch.milliseconds();
+  report.peak_memory_mb = peakMemoryMb();
+  writeFile(frame.output / "report.json", toJson(report));
+  printSummary(report, frame.output.string());
+  return !report.verdict.isDoubtful();
+}
+
+}  // namespace light_field_depth
