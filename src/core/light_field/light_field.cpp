@@ -18,6 +18,9 @@ namespace
 /// Set by hand; tests solve views of this size.
 constexpr int MIN_VIEW_SIDE_PX = 16;
 
+/// Steps, and pixels of offset: no array is so large, and products with disparities stay exact enough.
+constexpr double FARTHEST = 1e6;
+
 constexpr EnumNames<ViewSelection, 6> SELECTION_NAMES = {{
     {ViewSelection::Auto, "auto"},
     {ViewSelection::Row, "row"},
@@ -75,6 +78,12 @@ void checkImage(const View& view, const View& first)
     if (!std::isfinite(value))
     {
       throw InputError(name + " has a position that is not finite; check its calibration.");
+    }
+    if (std::abs(value) > FARTHEST)
+    {
+      throw InputError(
+          name + " is " + std::to_string(value) +
+          " steps (or pixels of offset) away; at most a million can be used. Check its position.");
     }
   }
 }

@@ -159,7 +159,8 @@ void prepareViews(const LightField& light_field, const ViewSetSettings& settings
       motion = std::max(motion, widest_disparity * std::abs(view.steps.x) + std::abs(view.offset_px.x));
     }
   }
-  const int pad = static_cast<int>(std::ceil(motion)) + SAMPLING_MARGIN_PX;
+  const double visible = visibleShift(motion, light_field.size().width);
+  const int pad = static_cast<int>(std::ceil(visible)) + SAMPLING_MARGIN_PX;
   const auto prepare = [&](int i)
   {
     if (i < 0)

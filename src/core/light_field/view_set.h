@@ -47,6 +47,17 @@ private:
   std::vector<std::uint8_t> values_;
 };
 
+/// A shift of a view along an axis on which it has `side_px` pixels, held back to where nothing but the
+/// repeated border is left of it: farther shifts show the same, so that neither memory nor whole numbers need
+/// to hold them.
+inline double visibleShift(double shift_px, int side_px)
+{
+  /// Samples of four taps beside the pixel see the border only.
+  constexpr int TAPS_PX = 3;
+  const double most = side_px + TAPS_PX;
+  return std::clamp(shift_px, -most, most);
+}
+
 /// Values of colourDifference().
 constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
 
@@ -82,7 +93,7 @@ struct ViewSetSettings
 {
   bool grey = false;
   double blur_sigma_px = 0.0;  ///< of a Gaussian over every view; 0 for none
-  DisparityRange range;        ///< gives the padding
+  DisparityRange range;        ///< gives the padding, as far as visibleShift() goes
 };
 
 /// The views of a light field as planes, ordered by arms, and within an arm by distance.

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/light_field/half_resolution.h"
+#include "core/light_field/reach.h"
 #include "core/light_field/view_set.h"
 #include "core/multiview/maps/left_right_check.h"
 #include "core/multiview/maps/upsampling.h"
@@ -265,6 +266,7 @@ LightField MultiviewEstimator::measure(const LightField& views, const EstimateRe
     const StageTimer timer(context, "range");
     measures.range = request.disparity_range ? *request.disparity_range
                                              : findDisparityRange(small, context.pool, range_options);
+    checkReach(measures.range, views);
   }
   if (options_.registration)
   {
@@ -310,6 +312,7 @@ LightField MultiviewEstimator::measureQuickly(const LightField& views, const Est
     range_options.max_displacement_px *= 0.25F;
     measures.range = request.disparity_range ? *request.disparity_range
                                              : findDisparityRange(quarter, context.pool, range_options);
+    checkReach(measures.range, views);
   }
   const StageTimer timer(context, "noise");
   measures.noise_sigma = measuredNoise(chosen, measures.range, context.pool);

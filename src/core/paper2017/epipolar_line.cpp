@@ -17,8 +17,10 @@ EpipolarLine::EpipolarLine(const ViewPair& pair, double scale, const cv::Size& s
   const double at_one_end = offset_ - steps_ * (range ? range->min : -max_displacement_px);
   const double at_other_end = offset_ - steps_ * (range ? range->max : max_displacement_px);
   const int longest = (along_x ? size.width : size.height) - 1;
-  min_ = std::clamp(static_cast<int>(std::floor(std::min(at_one_end, at_other_end))), -longest, longest);
-  max_ = std::clamp(static_cast<int>(std::ceil(std::max(at_one_end, at_other_end))), -longest, longest);
+  const auto inside = [longest](double displacement)
+  { return static_cast<int>(std::clamp(displacement, -1.0 * longest, 1.0 * longest)); };
+  min_ = inside(std::floor(std::min(at_one_end, at_other_end)));
+  max_ = inside(std::ceil(std::max(at_one_end, at_other_end)));
   for (int displacement = min_ - 1; displacement <= max_ + 1; ++displacement)
   {
     const double disparity_px = (offset_ - displacement) / steps_;

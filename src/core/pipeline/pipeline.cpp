@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/light_field/reach.h"
 #include "core/multiview/multiview_estimator.h"
 #include "core/paper2017/paper2017_estimator.h"
 #include "light_field_depth/core/enum_names.h"
@@ -39,37 +40,6 @@ void throwIfAny(const std::vector<std::string>& problems)
     text += (text.empty() ? "" : " ") + problem;
   }
   throw InputError(text);
-}
-
-/// Disparity at which even the nearest view has nothing of the reference view in its image any more.
-double largestVisibleDisparity(const LightField& light_field)
-{
-  const double side_px = std::max(light_field.size().width, light_field.size().height);
-  double largest_px = 0.0;
-  for (const View& view : light_field.views)
-  {
-    const double steps = std::max(std::abs(view.steps.x), std::abs(view.steps.y));
-    const double offset_px = std::max(std::abs(view.offset_px.x), std::abs(view.offset_px.y));
-    if (steps > 0.0)
-    {
-      largest_px = std::max(largest_px, (side_px + offset_px) / steps);
-    }
-  }
-  return largest_px;
-}
-
-/// Where nothing can be seen there is nothing to search, but memory and time grow with the range.
-void checkRange(const DisparityRange& range, const LightField& light_field)
-{
-  const double largest_px = largestVisibleDisparity(light_field);
-  if (range.min < -largest_px || range.max > largest_px)
-  {
-    std::ostringstream text;
-    text << "disparity_range is " << range.min << ".." << range.max << " px, but beyond " << largest_px
-         << " px either way no view shows what the reference view of " << light_field.size().width << " x "
-         << light_field.size().height << " pixels does; give a range within that.";
-    throw InputError(text.str());
-  }
 }
 
 /// The caller's allocator, or that of a vector.
@@ -196,7 +166,7 @@ PipelineResult Pipeline::run(const LightField& light_field, const PipelineOption
   throwIfAny(validate(options));
   if (options.disparity_range)
   {
-    checkRange(*options.disparity_range, light_field);
+    checkReach(*options.disparity_range, light_field);
   }
   const auto start = std::chrono::steady_clock::now();
   RunContext context(pool_);

@@ -150,20 +150,24 @@ private:
     plan.reference = coarse ? small_.front().coarse : small_.front().fine;
     std::size_t next = 1;
     double reach = 0.0;
+    const double most = std::max(nearest_, largestDistance(range_, LABEL_DISPLACEMENT / scale));
     for (const AxisArm& arm : arms_)
     {
       SweepArm sweep_arm;
       for (std::size_t i = 0; i < arm.size(); ++i, ++next)
       {
         const bool wanted = which == Views::Nearest ? i == 0 : i > 0 || arm.size() == 1;
-        if (wanted)
+        if (wanted && distanceOf(*arm[i]) <= most)
         {
           sweep_arm.push_back({coarse ? small_[next].coarse : small_[next].fine,
                                cv::Point2f(arm[i]->steps) * scale, cv::Point2f(arm[i]->offset_px) * scale});
           reach = std::max(reach, distanceOf(*arm[i]));
         }
       }
-      plan.arms.push_back(std::move(sweep_arm));
+      if (!sweep_arm.empty())
+      {
+        plan.arms.push_back(std::move(sweep_arm));
+      }
     }
     plan.disparity_step = labelStep(halvings, reach);
     const float centre = 0.5F * (range_.min + range_.max);
@@ -232,6 +236,10 @@ private:
   void sweep(Views which, int halvings)
   {
     const PlaneSweep plan = planSweep(which, halvings);
+    if (plan.arms.empty())
+    {
+      return;
+    }
     const SweepCosts volume = sweepPlanes(plan, pool_);
     const std::vector<std::uint8_t> trusted =
         isPair(arms_) ? findMutualMatches(plan, volume, pool_) : std::vector<std::uint8_t>();

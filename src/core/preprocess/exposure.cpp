@@ -162,17 +162,24 @@ private:
     {
       return likelyMatches(sweep.plan, sweep.volume, sweep.trusted);
     }
-    PlaneSweep plan = planSweep({sweep.plan.disparity(static_cast<float>(support->core.first) - 1.0F),
-                                 sweep.plan.disparity(static_cast<float>(support->core.last) + 1.0F)},
-                                farthest);
+    const DisparityRange range = {sweep.plan.disparity(static_cast<float>(support->core.first) - 1.0F),
+                                  sweep.plan.disparity(static_cast<float>(support->core.last) + 1.0F)};
+    const double most = std::max(nearest, largestDistance(range, LABEL_DISPLACEMENT / scale_));
+    PlaneSweep plan = planSweep(range, std::min(farthest, most));
     for (const AxisArm& arm : arms_)
     {
       SweepArm sweep_arm;
       for (const View* view : arm)
       {
-        sweep_arm.push_back(sweepView(*view));
+        if (distanceOf(*view) <= most)
+        {
+          sweep_arm.push_back(sweepView(*view));
+        }
       }
-      plan.arms.push_back(std::move(sweep_arm));
+      if (!sweep_arm.empty())
+      {
+        plan.arms.push_back(std::move(sweep_arm));
+      }
     }
     return likelyMatches(plan, sweepPlanes(plan, pool_));
   }

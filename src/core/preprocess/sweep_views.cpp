@@ -104,6 +104,14 @@ float largestDisparity(const std::vector<AxisArm>& arms, float max_displacement_
                   disparityOfFraction(arms, MAX_FRACTION_OF_SIDE));
 }
 
+double largestDistance(const DisparityRange& range, double pixels_per_label)
+{
+  /// Of 384 x 384 pixels, the largest images that are swept: 600 MB. A pair has 1075 at the most.
+  constexpr double MAX_LABELS = 2048.0;
+  const double extent = static_cast<double>(range.max) - static_cast<double>(range.min);
+  return extent > 0.0 ? MAX_LABELS * pixels_per_label / extent : std::numeric_limits<double>::max();
+}
+
 int halvingsFor(const cv::Size& size, int side_px)
 {
   constexpr int MIN_SIDE_PX = 16;

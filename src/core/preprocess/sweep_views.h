@@ -31,6 +31,12 @@ float largestDisparity(const std::vector<AxisArm>& arms, float max_displacement_
 /// The disparity at which points move by this fraction of the side, in no direction by more.
 float disparityOfFraction(const std::vector<AxisArm>& arms, double fraction_of_side);
 
+/// Views beyond this distance, in grid steps, take no part in a sweep of the range: half a pixel of theirs
+/// for each label would make more labels than can be kept in memory, and most of the range lies outside of
+/// their images.
+/// @param pixels_per_label spacing of the labels in pixels of the light field
+double largestDistance(const DisparityRange& range, double pixels_per_label);
+
 /// How often a view is halved before its longer side would be less than side_px.
 int halvingsFor(const cv::Size& size, int side_px);
 

@@ -211,8 +211,10 @@ private:
     for (std::size_t i = 0; i < scratch.samples.size(); ++i)
     {
       const PreparedView& view = views.views[i];
-      const auto dx = static_cast<int>(std::floor(view.offset_px.x - disparity * view.steps.x + 0.5));
-      const auto dy = static_cast<int>(std::floor(view.offset_px.y - disparity * view.steps.y + 0.5));
+      const double shift_x = visibleShift(view.offset_px.x - disparity * view.steps.x, views.width());
+      const double shift_y = visibleShift(view.offset_px.y - disparity * view.steps.y, views.height());
+      const auto dx = static_cast<int>(std::floor(shift_x + 0.5));
+      const auto dy = static_cast<int>(std::floor(shift_y + 0.5));
       scratch.surfaces[i] = surfaces->row(static_cast<int>(i), y + dy) + dx;
     }
   }

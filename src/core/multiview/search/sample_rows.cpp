@@ -33,10 +33,10 @@ void SampleRows::reset(const PreparedView& view, const LabelSpace& labels)
   for (int label = 0; label < labels.count; ++label)
   {
     const double disparity = labels.disparity(static_cast<float>(label));
-    const auto x =
-        static_cast<int>(std::lround(SUBPIXEL_PHASES * (view.offset_px.x - disparity * view.steps.x)));
-    const auto y =
-        static_cast<int>(std::lround(SUBPIXEL_PHASES * (view.offset_px.y - disparity * view.steps.y)));
+    const double shift_x = visibleShift(view.offset_px.x - disparity * view.steps.x, image_->width());
+    const double shift_y = visibleShift(view.offset_px.y - disparity * view.steps.y, image_->height());
+    const auto x = static_cast<int>(std::lround(SUBPIXEL_PHASES * shift_x));
+    const auto y = static_cast<int>(std::lround(SUBPIXEL_PHASES * shift_y));
     const int phase_x = modulo(x, SUBPIXEL_PHASES);
     const int phase_y = modulo(y, SUBPIXEL_PHASES);
     const LabelShift shift{(x - phase_x) / SUBPIXEL_PHASES, (y - phase_y) / SUBPIXEL_PHASES,
