@@ -15,6 +15,7 @@
 #include "kernel_benchmark.h"
 #include "light_fields.h"
 #include "memory.h"
+#include "pairs.h"
 #include "profile.h"
 #include "report_files.h"
 #include "scaling.h"
@@ -36,7 +37,7 @@ struct Measurement
 constexpr const char* DEFAULT_FLAG = "--light-fields";
 
 /// The memory comes first: what others leave behind in the process would count.
-constexpr std::array<Measurement, 10> MEASUREMENTS = {{
+constexpr std::array<Measurement, 11> MEASUREMENTS = {{
     {"--memory", "the most memory that the process holds", measureMemory},
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
@@ -46,6 +47,7 @@ constexpr std::array<Measurement, 10> MEASUREMENTS = {{
      measureConditions},
     {"--captures", "light fields of real cameras, without truth", measureCaptures},
     {"--order", "whether the layout of the views is found from the images", measureViewOrder},
+    {"--pairs", "pairs of views beside OpenCV's semi-global block matching", comparePairs},
     {"--kernels", "the inner loops with and without vectors, and the machine's limits", benchmarkKernels},
     {"--scaling", "how the time grows with pixels, views, labels and threads", measureGrowth},
     {"--profile", "where the time of a frame goes, and what the machine could do in it", profileFrame},
@@ -64,6 +66,10 @@ void declare(CLI::App& app, Settings& settings)
       "--capture", settings.captures,
       "folders with light fields for --captures, each as FOLDER or FOLDER,FLIP (none, rows, columns, "
       "both)");
+  app.add_option(
+      "--pair", settings.pairs,
+      "more pairs for --pairs, each as LEFT,RIGHT,TRUTH[,LEVELS]: images and a PFM, or an image of the "
+      "disparity with so many levels a pixel");
   app.add_option("--runs", settings.runs, "timed runs of each row")
       ->capture_default_str()
       ->check(CLI::Range(1, 999));

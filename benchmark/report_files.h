@@ -14,8 +14,9 @@ struct Settings
   std::vector<std::string> inputs;  ///< folders with a light field and its true disparity
   /// Folders with light fields without truth, each as FOLDER or FOLDER,FLIP.
   std::vector<std::string> captures;
-  std::string results;  ///< folder for the files; empty: no files
-  int runs = 9;         ///< timed runs of each row
+  std::vector<std::string> pairs;  ///< each as LEFT,RIGHT,TRUTH[,LEVELS]
+  std::string results;             ///< folder for the files; empty: no files
+  int runs = 9;                    ///< timed runs of each row
   int threads = 2;
 };
 
