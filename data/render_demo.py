@@ -20,6 +20,8 @@ Options (after the ``--``):
                     none    no view (only truth and description)
                     R,C ... a list such as "4,0 4,8 0,4"
     --no-truth      leave truth.pfm and light_field.yaml as they are
+    --view-truths L also write view_truths/truth_RR_CC.png for a list of views
+                    such as "0,4 8,4 4,0 4,8"
     --seed N        seed of the sampling noise                (default 1)
     --threads N     render threads, 0 = all                   (default 0)
 
@@ -41,8 +43,10 @@ import argparse
 import math
 import os
 import random
+import struct
 import sys
 import tempfile
+import zlib
 
 import bpy
 import numpy as np
@@ -758,9 +762,9 @@ def place_camera(camera, row, column):
     camera.data.shift_y = down * per_metre
 
 
-def render_depth(scene, camera):
+def render_depth(scene, camera, row=GRID // 2, column=GRID // 2):
     """Depth along the axis in metres, one sample at each pixel's centre; rows bottom to top."""
-    place_camera(camera, GRID // 2, GRID // 2)
+    place_camera(camera, row, column)
     cycles = scene.cycles
     kept = (cycles.samples, cycles.use_adaptive_sampling, cycles.filter_width, cycles.max_bounces)
     cycles.samples, cycles.use_adaptive_sampling, cycles.filter_width, cycles.max_bounces = (
@@ -817,6 +821,29 @@ def write_pfm(path, image):
         file.write(image.astype('<f4').tobytes())
 
 
+def write_view_truth(path, disparity):
+    """16-bit grey PNG: disparity in pixels = value / 8192 - 4. Rows bottom to top, as Blender has them."""
+    size = disparity.shape[0]
+    values = np.round((disparity + 4.0) * 8192.0)
+    if not (values.min() >= 0 and values.max() <= 65535):
+        raise RuntimeError('disparity beyond -4 .. 4 px')
+    # By hand, because Blender's own PNGs go through colour management.
+    rows = values[::-1].astype('>u2')
+    # Each row as differences to the row above (filter 2), which packs best.
+    packed = rows.view(np.uint8).reshape(size, 2 * size)
+    up = packed.copy()
+    up[1:] -= packed[:-1]
+    lines = np.concatenate([np.full((size, 1), 2, np.uint8), up], axis=1)
+
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack('>I', len(data)) + body + struct.pack('>I', zlib.crc32(body))
+
+    with open(path, 'wb') as file:
+        file.write(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', size, size, 16, 0, 0, 0, 0)) +
+                   chunk(b'IDAT', zlib.compress(lines.tobytes(), 9)) + chunk(b'IEND', b''))
+
+
 def write_description(path, size, focal, disparity):
     centre = (size - 1) / 2
     low = math.floor(disparity.min() * 10) / 10
@@ -857,6 +884,7 @@ def main():
     parser.add_argument('--samples', type=int, default=72)
     parser.add_argument('--views', default='cross')
     parser.add_argument('--no-truth', action='store_true')
+    parser.add_argument('--view-truths', default='')
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--threads', type=int, default=0)
     arguments = sys.argv[sys.argv.index('--') + 1:] if '--' in sys.argv else ['--help']
@@ -875,6 +903,13 @@ def main():
             depth.min(), depth.max(), disparity.min(), disparity.max()))
         write_pfm(os.path.join(output, 'truth.pfm'), disparity)
         write_description(os.path.join(output, 'light_field.yaml'), args.size, focal, disparity)
+
+    for row, column in wanted_views(args.view_truths) if args.view_truths else []:
+        folder = os.path.join(output, 'view_truths')
+        os.makedirs(folder, exist_ok=True)
+        depth = render_depth(scene, camera, row, column).astype(np.float64)
+        disparity = FOCAL_AT_512 * args.size / 512 * BASELINE * (1.0 / depth - 1.0 / FOCUS)
+        write_view_truth(os.path.join(folder, 'truth_%02d_%02d.png' % (row, column)), disparity)
 
     for row, column in wanted_views(args.views):
         place_camera(camera, row, column)

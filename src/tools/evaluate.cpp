@@ -7,10 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "light_field_depth/evaluation/cloud_score.h"
 #include "light_field_depth/evaluation/evaluation.h"
 #include "light_field_depth/evaluation/sparsification.h"
+#include "light_field_depth/io/cloud_files.h"
 #include "light_field_depth/io/image_files.h"
 #include "light_field_depth/io/pfm.h"
+#include "tools/cloud_truth.h"
 #include "tools/tool_main.h"
 
 namespace
@@ -34,6 +37,7 @@ cv::Mat readMask(const std::string& path)
 struct Arguments
 {
   std::string result;
+  std::string cloud;
   std::string truth;
   std::string confidence;
   std::string mask;
@@ -41,8 +45,21 @@ struct Arguments
   bool json = false;
 };
 
+void evaluateCloud(const Arguments& arguments)
+{
+  lfd::ThreadPool pool(0);
+  const lfd::CloudScore score =
+      lfd::scoreCloud(lfd::readPlyPositions(arguments.cloud), lfd::readCloudTruth(arguments.truth), pool);
+  std::cout << (arguments.json ? toJson(score) : toText(score)) << std::endl;
+}
+
 void evaluate(const Arguments& arguments)
 {
+  if (!arguments.cloud.empty())
+  {
+    evaluateCloud(arguments);
+    return;
+  }
   const cv::Mat result = lfd::readPfm(arguments.result);
   const cv::Mat truth = lfd::readPfm(arguments.truth);
   const cv::Mat mask = arguments.mask.empty() ? cv::Mat() : readMask(arguments.mask);
@@ -73,10 +90,17 @@ int main(int argc, char** argv)
   Arguments arguments;
   CLI::App app(
       "Scores a disparity map against ground truth: mean square error x 100, percentages of bad pixels, "
-      "25th percentile of the error x 100, part of the pixels that have a value.",
+      "25th percentile of the error x 100, part of the pixels that have a value. Or a cloud: accuracy and "
+      "completeness within 0.25, 1 and 2 % of depth, points that hang between surfaces.",
       "evaluate");
-  app.add_option("--result", arguments.result, "disparity map to score (PFM)")->required();
-  app.add_option("--truth", arguments.truth, "true disparity map (PFM)")->required();
+  auto* const scored = app.add_option_group("scored", "what is scored");
+  scored->add_option("--result", arguments.result, "disparity map to score (PFM)");
+  scored->add_option("--cloud", arguments.cloud, "cloud to score (binary PLY in the optical frame)");
+  scored->require_option(1);
+  app.add_option(
+         "--truth", arguments.truth,
+         "true disparity map (PFM); for a cloud the folder of the light field, with truth and calibration")
+      ->required();
   app.add_option("--confidence", arguments.confidence,
                  "confidence map of the result (PFM): also how the error falls as the least confident pixels "
                  "are dropped, as the area above the ideal curve (AUSE, parts of the whole error) and as the "

@@ -328,6 +328,24 @@ TEST_F(EvaluateTool, PrintsTheSameAsTheReferenceProgram)
   }
 }
 
+TEST(EvaluateToolOnClouds, ScoresTheCloudOfTheReferenceView)
+{
+  const SceneFolder scene;
+  const TemporaryFolder output;
+  ASSERT_EQ(estimate(scene.path(), output.path()).exit_code, 0);
+  const std::string arguments = " --truth " + quoted(scene.path().string()) + " --json --cloud " +
+                                quoted((output / "cloud.ply").string());
+  const Outcome outcome = testing::runProgram(quoted(EVALUATE_PROGRAM) + arguments);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const auto score = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(score["points"], 96 * 80);
+  EXPECT_GT(score["accuracy_1"], 80.0);
+  EXPECT_GT(score["completeness_2"], 85.0);
+  EXPECT_TRUE(score["hidden_2"].is_null()) << "no view but the reference has a truth";
+  const Outcome of_both = testing::runProgram(quoted(EVALUATE_PROGRAM) + arguments + " --result a.pfm");
+  EXPECT_NE(of_both.exit_code, 0);
+}
+
 TEST_F(EvaluateTool, HeedsTheMask)
 {
   cv::Mat mask = cv::Mat::zeros(truth_.size(), CV_8UC3);

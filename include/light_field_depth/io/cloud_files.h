@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "light_field_depth/core/point_cloud.h"
 
 namespace light_field_depth
@@ -22,6 +24,11 @@ enum class CloudAxes
 /// @throw InputError if the file cannot be written
 std::size_t writePly(const std::filesystem::path& path, const std::vector<ColoredPoint>& points,
                      CloudAxes axes = CloudAxes::Optical);
+
+/// The positions of the vertices of a binary little-endian PLY, in the order of the file. Other properties
+/// and elements are passed over.
+/// @throw InputError if the file cannot be read, or has no vertices with x, y and z as float or double
+std::vector<cv::Point3f> readPlyPositions(const std::filesystem::path& path);
 
 }  // namespace light_field_depth
 
