@@ -13,8 +13,9 @@ TOP=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 command -v debootstrap >/dev/null || { echo "fresh_machine: run apt-get install debootstrap first." >&2; exit 1; }
 MACHINE=$(realpath -m "${1:-$(mktemp -d)}")
 KEEP=$([ $# -gt 0 ] && echo true || echo false)
-MIRROR=$(grep -rhoE 'https?://[^ ]*debian\.org/debian/?|https?://[^ ]*/debian/?( |$)' /etc/apt/sources.list \
-  /etc/apt/sources.list.d 2>/dev/null | grep -v snapshot | head -n 1 | tr -d ' ')
+# This machine's own mirror. Either place may be missing, and a mirror need not be named there.
+MIRROR=$({ grep -rhoE 'https?://[^ ]*debian\.org/debian/?|https?://[^ ]*/debian/?( |$)' /etc/apt/sources.list \
+  /etc/apt/sources.list.d 2>/dev/null || true; } | sed '/snapshot/d; s/ //g; q')
 MIRROR=${MIRROR:-http://deb.debian.org/debian}
 
 say()

@@ -38,10 +38,6 @@ private:
   LightField reduced(const LightField& chosen, RunContext& context);
   void solve(const LightField& views, const EstimateRequest& request, RunContext& context,
              DisparityEstimate& estimate);
-  LightField measure(const LightField& views, const EstimateRequest& request, RunContext& context,
-                     multiview::SceneMeasures& measures);
-  LightField measureQuickly(const LightField& views, const EstimateRequest& request, RunContext& context,
-                            multiview::SceneMeasures& measures);
   bool follow(const LightField& views, const EstimateRequest& request, RunContext& context,
               DisparityEstimate& estimate);
   void solveCoarseToFine(const LightField& chosen, const multiview::SceneMeasures& measures,

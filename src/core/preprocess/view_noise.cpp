@@ -1,15 +1,13 @@
 #include "core/preprocess/view_noise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
+#include "core/preprocess/noise_blocks.h"
 #include "core/preprocess/view_noise_kernels.h"
 
 namespace light_field_depth::multiview
@@ -17,19 +15,11 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int BLOCK = NOISE_BLOCK_PX;
-/// Means of so many pixels tell how calm a block is: white noise is low in them.
-constexpr int CELL = 4;
-constexpr int CELLS = 3;  // in a row over a block and what lies about it
-constexpr int MARGIN = (CELLS * CELL - BLOCK) / 2;
 constexpr int VIEWS_COMPARED = 8;
 constexpr int MIN_VIEWS_COMPARED = 2;
 /// Blocks are compared at whole pixels. Where the shift is farther from one, texture makes a difference that
 /// is no noise. With this limit four in ten views are left, and a sixth of the variance of that difference.
 constexpr double MAX_ROUNDED_PX = 0.2;
-constexpr int MIN_BLOCKS = 50;
-/// Between black and white, with room for noise on both sides.
-constexpr int DARKEST_LEVEL = 12;
-constexpr int BRIGHTEST_LEVEL = 243;
 /// Least lower quartile of the variances of one block over their median where they are noise: even noise as
 /// soft as a Gaussian of 1.2 px, of which a block has twenty independent samples, has 0.8.
 constexpr float MIN_ALIKE = 0.6F;
@@ -45,129 +35,8 @@ constexpr int LOCAL_BLOCKS = 7;
 constexpr int MIN_LOCAL_BLOCKS = 6;
 constexpr float MAX_LOCAL_RATIO = 4.0F;
 constexpr int LOCAL_STEP_BLOCKS = 2;
-constexpr int BLOCK_ROWS_PER_CHUNK = 4;
 /// Slopes are summed in twelfths.
 constexpr float SLOPE_UNIT = 12.0F;
-
-/// Pixels of an image, whether its channels lie in planes or beside each other.
-struct Pixels
-{
-  const std::uint8_t* origin;
-  std::ptrdiff_t row_stride;
-  std::ptrdiff_t pixel_stride;
-  std::ptrdiff_t channel_stride;
-  int channels;
-  cv::Size size;
-
-  const std::uint8_t* at(int x, int y) const { return origin + y * row_stride + x * pixel_stride; }
-};
-
-Pixels pixelsOf(const PlanarImage& image)
-{
-  const auto channel_stride = static_cast<std::ptrdiff_t>(image.channelStride());
-  return {image.row(0),     channel_stride * image.channels(), 1, channel_stride,
-          image.channels(), {image.width(), image.height()}};
-}
-
-Pixels pixelsOf(const cv::Mat& image)
-{
-  return {image.ptr<std::uint8_t>(), static_cast<std::ptrdiff_t>(image.step[0]),
-          image.channels(),          1,
-          image.channels(),          image.size()};
-}
-
-struct Block
-{
-  int x = 0;
-  int y = 0;
-  int change = 0;        ///< between the means of neighbouring cells
-  bool midtone = false;  ///< neither nearly black nor nearly white
-  float value = -1.0F;   ///< variance; below 0: unknown
-  float slope = -1.0F;
-};
-
-/// Blocks in rows and columns, so that the cells of each begin at a multiple of CELL.
-class BlockGrid
-{
-public:
-  BlockGrid(const cv::Size& image, int step)
-      : step_(step * BLOCK), columns_(count(image.width)), rows_(count(image.height)),
-        blocks_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_))
-  {
-    for (int row = 0; row < rows_; ++row)
-    {
-      for (int column = 0; column < columns_; ++column)
-      {
-        at(column, row).x = MARGIN + column * step_;
-        at(column, row).y = MARGIN + row * step_;
-      }
-    }
-  }
-
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
-  Block& at(int column, int row)
-  {
-    return blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                   static_cast<std::size_t>(column)];
-  }
-  std::vector<Block>& blocks() { return blocks_; }
-
-  static int count(int side, int step)
-  {
-    return side < BLOCK + 2 * MARGIN ? 0 : (side - BLOCK - 2 * MARGIN) / step + 1;
-  }
-
-private:
-  int count(int side) const { return count(side, step_); }
-
-  int step_;
-  int columns_;
-  int rows_;
-  std::vector<Block> blocks_;
-};
-
-/// Sets the sum of the changes between neighbouring cells and whether the block is neither black nor white.
-void look(const Pixels& pixels, Block& block)
-{
-  block.change = 0;
-  int level = 0;
-  for (int c = 0; c < pixels.channels; ++c)
-  {
-    std::array<std::array<int, CELLS>, CELLS> cells{};
-    for (int y = 0; y < CELLS * CELL; ++y)
-    {
-      const std::uint8_t* pixel =
-          pixels.at(block.x - MARGIN, block.y - MARGIN + y) + c * pixels.channel_stride;
-      for (int& cell : cells[static_cast<std::size_t>(y / CELL)])
-      {
-        for (int x = 0; x < CELL; ++x, pixel += pixels.pixel_stride)
-        {
-          cell += *pixel;
-        }
-      }
-    }
-    for (std::size_t y = 0; y < CELLS; ++y)
-    {
-      for (std::size_t x = 0; x < CELLS; ++x)
-      {
-        level += cells[y][x];
-        block.change += x > 0 ? std::abs(cells[y][x] - cells[y][x - 1]) : 0;
-        block.change += y > 0 ? std::abs(cells[y][x] - cells[y - 1][x]) : 0;
-      }
-    }
-  }
-  const int count = pixels.channels * CELLS * CELL * CELLS * CELL;
-  block.midtone = level > DARKEST_LEVEL * count && level < BRIGHTEST_LEVEL * count;
-}
-
-template <typename Value>
-Value medianOf(std::vector<Value>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Of the variances of differences to several views. Noise is alike in all of them. Texture that the search
 /// over whole pixels left between two pixels is not: it depends on the view how far that is, and the views
@@ -178,50 +47,6 @@ float noiseOf(std::vector<float>& variances)
   const auto quarter = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 4);
   std::nth_element(variances.begin(), quarter, variances.end());
   return *quarter < MIN_ALIKE * median ? *quarter : median;
-}
-
-/// @return the change that a part of the midtone blocks does not exceed; negative if there are too few blocks
-int calmLimit(const std::vector<Block>& blocks, double part)
-{
-  std::vector<int> changes;
-  for (const Block& block : blocks)
-  {
-    if (block.midtone)
-    {
-      changes.push_back(block.change);
-    }
-  }
-  if (changes.size() < MIN_BLOCKS)
-  {
-    return -1;
-  }
-  const auto limit =
-      changes.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(changes.size()));
-  std::nth_element(changes.begin(), limit, changes.end());
-  return *limit;
-}
-
-/// Variance within the block of the difference to a block of another view, a channel.
-float variance(const DifferenceSums& sums, int channels)
-{
-  constexpr float pixels = BLOCK * BLOCK;
-  std::array<int, 3> means{};
-  for (int i = 0; i < channels * BLOCK; ++i)
-  {
-    means[static_cast<std::size_t>(i % channels)] += sums.columns[i];
-  }
-  auto squares = static_cast<float>(sums.squares);
-  for (const int sum : means)
-  {
-    squares -= static_cast<float>(sum) * static_cast<float>(sum) / pixels;
-  }
-  return squares / (pixels * static_cast<float>(channels));
-}
-
-bool isInside(const Pixels& pixels, int x, int y)
-{
-  return x >= MARGIN && y >= MARGIN && x + BLOCK + MARGIN <= pixels.size.width &&
-         y + BLOCK + MARGIN <= pixels.size.height;
 }
 
 /// The nearest view of every direction, then the second ones.
@@ -262,10 +87,10 @@ std::vector<std::size_t> nearestViews(const LightField& light_field)
 
 /// Variance of the difference to the view at the shift where it is least; negative if the view shows the
 /// block at none.
-float leastVariance(const Pixels& reference, const View& view, const DisparityRange& range,
-                    const Block& block)
+float leastVariance(const BlockPixels& reference, const View& view, const DisparityRange& range,
+                    const NoiseBlock& block)
 {
-  const Pixels pixels = pixelsOf(view.image);
+  const BlockPixels pixels = pixelsOf(view.image);
   const double widest = std::max(std::abs(view.steps.x), std::abs(view.steps.y));
   const int shifts = std::min(cvCeil((range.max - range.min) * widest) + 1, MAX_SHIFTS);
   float least = -1.0F;
@@ -279,7 +104,7 @@ float leastVariance(const Pixels& reference, const View& view, const DisparityRa
       const DifferenceSums sums = sumDifferences(
           {reference.at(block.x, block.y), reference.row_stride, pixels.at(x, y), pixels.row_stride},
           BLOCK * reference.channels);
-      const float here = variance(sums, reference.channels);
+      const float here = blockVariance(sums, reference.channels);
       least = least < 0.0F ? here : std::min(least, here);
     }
   }
@@ -287,15 +112,16 @@ float leastVariance(const Pixels& reference, const View& view, const DisparityRa
 }
 
 /// Compares a block of prepared views at its disparity.
-void compareAt(const ViewSet& views, const std::vector<std::size_t>& chosen, float disparity, Block& block)
+void compareAt(const ViewSet& views, const std::vector<std::size_t>& chosen, float disparity,
+               NoiseBlock& block)
 {
   std::vector<float> values;
   std::vector<float> slopes;
-  const Pixels reference = pixelsOf(views.reference);
+  const BlockPixels reference = pixelsOf(views.reference);
   for (const std::size_t i : chosen)
   {
     const PreparedView& view = views.views[i];
-    const Pixels pixels = pixelsOf(view.image);
+    const BlockPixels pixels = pixelsOf(view.image);
     const double shift_x = view.offset_px.x - static_cast<double>(disparity) * view.steps.x;
     const double shift_y = view.offset_px.y - static_cast<double>(disparity) * view.steps.y;
     const int x = block.x + cvRound(shift_x);
@@ -312,7 +138,7 @@ void compareAt(const ViewSet& views, const std::vector<std::size_t>& chosen, flo
       const BlockPair pair{reference.at(block.x, block.y) + c * reference.channel_stride,
                            reference.row_stride, pixels.at(x, y) + c * pixels.channel_stride,
                            pixels.row_stride};
-      value += variance(sumDifferences(pair, BLOCK), 1);
+      value += blockVariance(sumDifferences(pair, BLOCK), 1);
       slope += static_cast<float>(sumSlopes(pair));
     }
     values.push_back(value / static_cast<float>(reference.channels));
@@ -327,37 +153,8 @@ void compareAt(const ViewSet& views, const std::vector<std::size_t>& chosen, flo
   }
 }
 
-void findChanges(const Pixels& pixels, ThreadPool& pool, BlockGrid& grid)
-{
-  pool.parallelFor(0, grid.rows(), BLOCK_ROWS_PER_CHUNK,
-                   [&](int first, int last)
-                   {
-                     for (int row = first; row < last; ++row)
-                     {
-                       for (int column = 0; column < grid.columns(); ++column)
-                       {
-                         look(pixels, grid.at(column, row));
-                       }
-                     }
-                   });
-}
-
-/// Median of what the blocks that are calm enough know; 0 if none does.
-float medianOfCalm(const std::vector<Block>& blocks, int limit, float Block::*field)
-{
-  std::vector<float> values;
-  for (const Block& block : blocks)
-  {
-    if (block.midtone && block.change <= limit && block.*field >= 0.0F)
-    {
-      values.push_back(block.*field);
-    }
-  }
-  return values.empty() ? 0.0F : medianOf(values);
-}
-
 /// Medians over the blocks about every second one, between them by interpolation.
-void setLocalSlopes(BlockGrid& grid, const cv::Size& size, float overall, cv::Mat& local)
+void setLocalSlopes(NoiseBlockGrid& grid, const cv::Size& size, float overall, cv::Mat& local)
 {
   const auto cells = [](int blocks)
   { return std::max(1, (blocks + LOCAL_STEP_BLOCKS - 1) / LOCAL_STEP_BLOCKS); };
@@ -394,16 +191,16 @@ void setLocalSlopes(BlockGrid& grid, const cv::Size& size, float overall, cv::Ma
 
 float estimateNoiseOfViews(const LightField& light_field, const DisparityRange& range, ThreadPool& pool)
 {
-  const Pixels reference = pixelsOf(light_field.reference().image);
-  const int all =
-      BlockGrid::count(reference.size.width, BLOCK) * BlockGrid::count(reference.size.height, BLOCK);
+  const BlockPixels reference = pixelsOf(light_field.reference().image);
+  const int all = NoiseBlockGrid::count(reference.size.width, BLOCK) *
+                  NoiseBlockGrid::count(reference.size.height, BLOCK);
   const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(all) / SEARCHED_BLOCKS)));
-  BlockGrid grid(reference.size, step);
+  NoiseBlockGrid grid(reference.size, step);
   findChanges(reference, pool, grid);
   const int limit = calmLimit(grid.blocks(), CALMEST_PART);
   const std::vector<std::size_t> chosen = nearestViews(light_field);
   auto& blocks = grid.blocks();
-  const auto compare = [&](Block& block)
+  const auto compare = [&](NoiseBlock& block)
   {
     std::vector<float> values;
     for (const std::size_t i : chosen)
@@ -430,24 +227,24 @@ float estimateNoiseOfViews(const LightField& light_field, const DisparityRange& 
                        }
                      }
                    });
-  return std::sqrt(medianOfCalm(blocks, limit, &Block::value));
+  return std::sqrt(medianOfCalm(blocks, limit, &NoiseBlock::value));
 }
 
 void measureViewNoise(const ViewSet& views, const cv::Mat& disparity, ThreadPool& pool, ViewNoise& noise)
 {
-  BlockGrid grid({views.width(), views.height()}, 1);
+  NoiseBlockGrid grid({views.width(), views.height()}, 1);
   findChanges(pixelsOf(views.reference), pool, grid);
   const int calmest = calmLimit(grid.blocks(), CALMEST_PART);
   const int calmer = calmLimit(grid.blocks(), CALMER_PART);
   const std::vector<std::size_t> chosen = nearestOfArms(views);
-  pool.parallelFor(0, grid.rows(), BLOCK_ROWS_PER_CHUNK,
+  pool.parallelFor(0, grid.rows(), NOISE_BLOCK_ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
                      for (int row = first; row < last; ++row)
                      {
                        for (int column = 0; column < grid.columns(); ++column)
                        {
-                         Block& block = grid.at(column, row);
+                         NoiseBlock& block = grid.at(column, row);
                          if (block.change <= calmer)
                          {
                            compareAt(views, chosen,
@@ -456,8 +253,8 @@ void measureViewNoise(const ViewSet& views, const cv::Mat& disparity, ThreadPool
                        }
                      }
                    });
-  noise.value_variance = medianOfCalm(grid.blocks(), calmest, &Block::value);
-  noise.slope_variance = medianOfCalm(grid.blocks(), calmest, &Block::slope);
+  noise.value_variance = medianOfCalm(grid.blocks(), calmest, &NoiseBlock::value);
+  noise.slope_variance = medianOfCalm(grid.blocks(), calmest, &NoiseBlock::slope);
   setLocalSlopes(grid, disparity.size(), noise.slope_variance, noise.local_slope_variance);
 }
 

@@ -16,18 +16,6 @@ constexpr int COARSEST_SWEEPS = 10;
 /// Twice the correction is the most that constant prolongation falls short by.
 constexpr double MAX_STEP = 2.0;
 
-SystemRow rowOf(const LinkedGrid& grid, int y)
-{
-  return {grid.weight.ptr<float>(y),
-          grid.target.ptr<float>(y),
-          grid.left.ptr<float>(y),
-          grid.up.ptr<float>(y),
-          grid.up.ptr<float>(y + 1),
-          grid.values.ptr<float>(std::max(y - 1, 0)),
-          grid.values.ptr<float>(std::min(y + 1, grid.values.rows - 1)),
-          grid.values.ptr<float>(y)};
-}
-
 }  // namespace
 
 /// Of one chunk of rows at work.
@@ -101,10 +89,10 @@ void CoarseCorrection::coarsen(const LinkedGrid& fine, Level& level, ThreadPool&
   {
     const auto stride = static_cast<std::size_t>(width);
     const CellSums sums{scratch.data(), scratch.data() + stride, scratch.data() + 2 * stride};
-    sumResiduals(rowOf(fine, 2 * y), width, false, sums);
+    sumResiduals(systemRow(fine, 2 * y), width, false, sums);
     if (2 * y + 1 < height)
     {
-      sumResiduals(rowOf(fine, 2 * y + 1), width, true, sums);
+      sumResiduals(systemRow(fine, 2 * y + 1), width, true, sums);
     }
     joinCells({sums, fine.up.ptr<float>(2 * y), width, level.weight.ptr<float>(y), level.target.ptr<float>(y),
                level.left.ptr<float>(y), level.up.ptr<float>(y)});
@@ -152,7 +140,7 @@ float CoarseCorrection::bestStep(Level& level, ThreadPool& pool)
     columns.assign(2 * width, 0.0F);
     for (int y = first; y < last; ++y)
     {
-      sumGains(rowOf(grid, y), level.values.cols, columns.data(), columns.data() + width);
+      sumGains(systemRow(grid, y), level.values.cols, columns.data(), columns.data() + width);
     }
     const auto chunk = static_cast<std::size_t>(first / ROWS_PER_CHUNK);
     const auto middle = columns.begin() + static_cast<std::ptrdiff_t>(width);

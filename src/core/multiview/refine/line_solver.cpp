@@ -12,18 +12,6 @@ namespace
 constexpr int BAND_ROWS = 2 * ROWS_AT_ONCE;
 constexpr int COLUMNS_PER_CHUNK = 128;
 
-SystemRow rowOf(const LinkedGrid& grid, int y)
-{
-  return {grid.weight.ptr<float>(y),
-          grid.target.ptr<float>(y),
-          grid.left.ptr<float>(y),
-          grid.up.ptr<float>(y),
-          grid.up.ptr<float>(y + 1),
-          grid.values.ptr<float>(std::max(y - 1, 0)),
-          grid.values.ptr<float>(std::min(y + 1, grid.values.rows - 1)),
-          grid.values.ptr<float>(y)};
-}
-
 void solveColumnRange(const LinkedGrid& grid, int first, int last, std::vector<float>& scratch,
                       cv::Mat& solution)
 {
@@ -66,6 +54,18 @@ void solveColumnRange(const LinkedGrid& grid, int first, int last, std::vector<f
 
 }  // namespace
 
+SystemRow systemRow(const LinkedGrid& grid, int y)
+{
+  return {grid.weight.ptr<float>(y),
+          grid.target.ptr<float>(y),
+          grid.left.ptr<float>(y),
+          grid.up.ptr<float>(y),
+          grid.up.ptr<float>(y + 1),
+          grid.values.ptr<float>(std::max(y - 1, 0)),
+          grid.values.ptr<float>(std::min(y + 1, grid.values.rows - 1)),
+          grid.values.ptr<float>(y)};
+}
+
 void LineSolver::solveRows(const LinkedGrid& grid, const PrepareBand& prepare, ThreadPool& pool)
 {
   const int height = grid.values.rows;
@@ -104,7 +104,7 @@ void LineSolver::solveEverySecond(const LinkedGrid& grid, int first, int last, i
   int count = 0;
   for (int y = first; y < last; y += step)
   {
-    rows[static_cast<std::size_t>(count++)] = rowOf(grid, y);
+    rows[static_cast<std::size_t>(count++)] = systemRow(grid, y);
   }
   const int width = grid.values.cols;
   scratch_.use(

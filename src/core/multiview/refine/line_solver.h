@@ -22,6 +22,9 @@ struct LinkedGrid
   cv::Mat& values;      ///< start and result
 };
 
+/// Pointers to a row of the grid and to the values of the rows beside it.
+SystemRow systemRow(const LinkedGrid& grid, int y);
+
 /// Solves the lines of a grid exactly, each given those beside it. Keeps its memory; one call at a time.
 class LineSolver
 {
