@@ -12,6 +12,8 @@ namespace light_field_depth
 namespace
 {
 constexpr int MAX_BORDER_PX = 65536;
+/// Of a pixel without a value: the range of the truth, but a flat truth makes it no better than a bad one.
+constexpr float LEAST_ERROR_OF_UNKNOWN_PX = 1.0F;
 
 std::string sizeText(const cv::Size& size)
 {
@@ -81,7 +83,7 @@ ScoredPixels scorePixels(const cv::Mat& result, const cv::Mat& truth, const cv::
   checkSizes(result, truth, mask, border_px);
   const cv::Rect area = scoredArea(result.size(), truth.size(), border_px);
   const cv::Point margin((truth.cols - result.cols) / 2, (truth.rows - result.rows) / 2);
-  const float worst = finiteSpan(truth(area));
+  const float worst = std::max(finiteSpan(truth(area)), LEAST_ERROR_OF_UNKNOWN_PX);
   ScoredPixels scored;
   scored.errors.reserve(static_cast<std::size_t>(area.area()));
   scored.positions.reserve(static_cast<std::size_t>(area.area()));

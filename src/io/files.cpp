@@ -1,12 +1,14 @@
 #include "light_field_depth/io/files.h"
 
-#include <cerrno>
-#include <fstream>
-#include <sstream>
-#include <system_error>
-
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "io/posix_files.h"
 #include "light_field_depth/core/error.h"
 
 namespace light_field_depth
@@ -15,93 +17,139 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// Removes a file at the end of its life, if it is still there.
+constexpr mode_t ANYBODY = 0666;  // less what the user's umask takes away
+
+[[noreturn]] void failToRead(const fs::path& path, int error)
+{
+  throw InputError("'" + path.string() + "' cannot be read: " + systemError(error) + ".");
+}
+
+[[noreturn]] void failToWrite(const fs::path& path, int error)
+{
+  throw InputError("'" + path.string() + "' cannot be written: " + systemError(error) +
+                   "; check the folder's permissions and the space on the disk.");
+}
+
+/// A new file that is gone at the end of its life unless it was renamed.
 class TemporaryFile
 {
 public:
   explicit TemporaryFile(const fs::path& target)
-      : path_(target.parent_path() / ("." + target.stem().string() + ".partial-" + std::to_string(getpid()) +
-                                      target.extension().string()))
+      : target_(target), path_(hiddenNameBeside(target)),
+        descriptor_(open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, ANYBODY))
   {
+    if (!descriptor_.isOpen())
+    {
+      failToWrite(target_, errno);
+    }
   }
   ~TemporaryFile()
   {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
+    if (!renamed_)
+    {
+      unlink(path_.c_str());
+    }
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  const fs::path& path() const { return path_; }
+  void write(const std::string& content)
+  {
+    std::size_t done = 0;
+    while (done < content.size())
+    {
+      const ssize_t count = ::write(descriptor_.number(), content.data() + done, content.size() - done);
+      if (count < 0 && errno != EINTR)
+      {
+        failToWrite(target_, errno);
+      }
+      done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+    }
+    // Full disks may show only here. Some file systems have no such call.
+    if (fsync(descriptor_.number()) != 0 && errno != EINVAL && errno != ENOSYS)
+    {
+      failToWrite(target_, errno);
+    }
+  }
+
+  void moveToTarget()
+  {
+    if (std::rename(path_.c_str(), target_.c_str()) != 0)
+    {
+      failToWrite(target_, errno);
+    }
+    renamed_ = true;
+    syncFolder(folderOf(target_));
+  }
 
 private:
+  fs::path target_;
   fs::path path_;
+  Descriptor descriptor_;
+  bool renamed_ = false;
 };
-
-std::string lastSystemError()
-{
-  return std::error_code(errno, std::generic_category()).message();
-}
 
 }  // namespace
 
 std::string readFile(const fs::path& path)
 {
-  std::error_code error;
-  if (fs::is_directory(path, error))
+  // A pipe may never end or have a writer, and a device has no end at all: neither is waited for.
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  struct stat status = {};
+  if (!file.isOpen() || fstat(file.number(), &status) != 0)
+  {
+    failToRead(path, errno);
+  }
+  if (S_ISDIR(status.st_mode))
   {
     throw InputError("'" + path.string() + "' is a folder, but a file is needed.");
   }
-  // A pipe may never end, and a device has no end at all.
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+  if (!S_ISREG(status.st_mode))
   {
     throw InputError("'" + path.string() + "' is a pipe or a device, but a file is needed.");
   }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (!file.is_open() || file.bad())
+  std::string content;
+  std::size_t done = 0;
+  for (;;)
   {
-    throw InputError("'" + path.string() + "' cannot be read: " + lastSystemError() + ".");
-  }
-  return content.str();
-}
-
-void writeWhole(const fs::path& path, const std::function<void(const fs::path& temporary)>& write)
-{
-  const TemporaryFile temporary(path);
-  write(temporary.path());
-  std::error_code error;
-  fs::rename(temporary.path(), path, error);
-  if (error)
-  {
-    throw InputError("'" + path.string() + "' cannot be written: " + error.message() + ".");
+    // One byte more than the file is said to have tells its end without another round.
+    constexpr std::size_t LEAST_BLOCK = 4096;
+    const auto said = static_cast<std::size_t>(std::max<off_t>(status.st_size, 0));
+    content.resize(std::max(said + 1, done + LEAST_BLOCK));
+    const ssize_t count = read(file.number(), content.data() + done, content.size() - done);
+    if (count < 0 && errno != EINTR)
+    {
+      failToRead(path, errno);
+    }
+    if (count == 0)
+    {
+      content.resize(done);
+      return content;
+    }
+    done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
   }
 }
 
 void writeFile(const fs::path& path, const std::string& content)
 {
-  writeWhole(path,
-             [&](const fs::path& temporary)
-             {
-               errno = 0;
-               std::ofstream file(temporary, std::ios::binary);
-               file.write(content.data(), static_cast<std::streamsize>(content.size()));
-               file.close();
-               if (!file)
-               {
-                 throw InputError("'" + path.string() + "' cannot be written: " + lastSystemError() +
-                                  "; check the folder's permissions and the space on the disk.");
-               }
-             });
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(path, error);
+  if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
+  {
+    throw InputError("'" + path.string() +
+                     "' cannot be written: a folder, pipe or device of that name is there; choose another.");
+  }
+  TemporaryFile temporary(path);
+  temporary.write(content);
+  temporary.moveToTarget();
 }
 
 void makeFolder(const fs::path& folder)
 {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder))
+  std::error_code absent;
+  if (!fs::is_directory(folder, absent))
   {
     throw InputError("The folder '" + folder.string() + "' cannot be created" +
                      (error ? ": " + error.message() : " because a file of that name is there") + ".");

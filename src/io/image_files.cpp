@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <cstdlib>
+#include <new>
 #include <string_view>
+#include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -51,10 +54,37 @@ cv::Mat decode(const std::string& content)
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
     return cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
   }
-  catch (const cv::Exception&)
+  catch (const cv::Exception& error)
   {
+    if (error.code == cv::Error::StsNoMem)
+    {
+      throw std::bad_alloc();
+    }
     return {};
   }
+}
+
+/// The bytes of an image file. @return false if there is no such format, or it cannot hold the values
+bool encode(const std::string& extension, const cv::Mat& image, std::string& content)
+{
+  std::vector<std::uint8_t> bytes;
+  try
+  {
+    if (!cv::imencode(extension, image, bytes))
+    {
+      return false;
+    }
+  }
+  catch (const cv::Exception& error)
+  {
+    if (error.code == cv::Error::StsNoMem)
+    {
+      throw std::bad_alloc();
+    }
+    return false;
+  }
+  content.assign(bytes.begin(), bytes.end());
+  return true;
 }
 
 }  // namespace
@@ -100,24 +130,13 @@ cv::Mat readImage(const std::filesystem::path& path)
 
 void writeImage(const std::filesystem::path& path, const cv::Mat& image)
 {
-  writeWhole(path,
-             [&](const std::filesystem::path& temporary)
-             {
-               bool written = false;
-               try
-               {
-                 written = cv::imwrite(temporary.string(), image);
-               }
-               catch (const cv::Exception&)
-               {
-                 written = false;
-               }
-               if (!written)
-               {
-                 throw InputError("The image '" + path.string() +
-                                  "' cannot be written; check the folder, its permissions and the disk.");
-               }
-             });
+  std::string content;
+  if (!encode(path.extension().string(), image, content))
+  {
+    throw InputError("The image '" + path.string() + "' cannot be written in this format; choose one of " +
+                     imageFormatsText() + ".");
+  }
+  writeFile(path, content);
 }
 
 }  // namespace light_field_depth

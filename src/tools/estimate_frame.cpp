@@ -1,6 +1,5 @@
 #include "tools/estimate_frame.h"
 
-#include <csignal>
 #include <string>
 
 #include "light_field_depth/core/thread_pool.h"
@@ -8,8 +7,10 @@
 #include "light_field_depth/evaluation/verdict.h"
 #include "light_field_depth/io/files.h"
 #include "light_field_depth/io/intermediate_files.h"
+#include "light_field_depth/io/result_folder.h"
 #include "tools/estimate_output.h"
 #include "tools/estimate_summary.h"
+#include "tools/interruption.h"
 #include "tools/progress_bar.h"
 #include "tools/stopwatch.h"
 
@@ -19,35 +20,10 @@ namespace
 {
 namespace fs = std::filesystem;
 
-Pipeline* running_pipeline = nullptr;
-
-/// Makes an interruption end the computation in order, so that no file is left half-written.
-class InterruptionGuard
-{
-public:
-  explicit InterruptionGuard(Pipeline& pipeline)
-  {
-    running_pipeline = &pipeline;
-    std::signal(SIGINT, stop);
-    std::signal(SIGTERM, stop);
-  }
-  ~InterruptionGuard()
-  {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
-    running_pipeline = nullptr;
-  }
-  InterruptionGuard(const InterruptionGuard&) = delete;
-  InterruptionGuard& operator=(const InterruptionGuard&) = delete;
-
-private:
-  static void stop(int /*signal*/) { running_pipeline->cancel(); }
-};
-
 PipelineResult runPipeline(Pipeline& pipeline, const EstimateArguments& arguments, const FrameWork& frame,
-                           const LightField& light_field, const PipelineOptions& options)
+                           const fs::path& results, const LightField& light_field,
+                           const PipelineOptions& options)
 {
-  const InterruptionGuard guard(pipeline);
   ProgressBar progress;
   pipeline.setProgressSink(
       [&](const std::string& stage, double fraction) {
@@ -56,7 +32,7 @@ PipelineResult runPipeline(Pipeline& pipeline, const EstimateArguments& argument
       });
   if (arguments.save_intermediate)
   {
-    const fs::path folder = frame.output / "intermediate";
+    const fs::path folder = results / "intermediate";
     pipeline.setIntermediateSink([folder](const std::string& name, const cv::Mat& values)
                                  { writeIntermediate(folder, name, values); });
   }
@@ -111,9 +87,11 @@ bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& inpu
     report.options.disparity_range = dataset.disparity_range;
     report.range_source = RangeSource::Dataset;
   }
-  makeFolder(frame.output);
+  const InterruptionGuard guard(pipeline);
+  ResultFolder results(frame.output);
   report.threads = pipeline.threads();
-  const PipelineResult result = runPipeline(pipeline, arguments, frame, dataset.light_field, report.options);
+  const PipelineResult result =
+      runPipeline(pipeline, arguments, frame, results.path(), dataset.light_field, report.options);
   ThreadPool pool(report.threads);
   describeResult(result, photometricError(dataset.light_field, result.estimate.disparity, pool), report);
 
@@ -121,12 +99,16 @@ bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& inpu
   report.verdict = judge(dataset, result.estimate, pool);
   report.stage_times.push_back({"verdict", verdict_watch.milliseconds()});
 
+  guard.check();
   const Stopwatch write_watch;
-  writeResults(frame.output, result, dataset.light_field.reference().image, output, report);
+  writeResults(results.path(), result, dataset.light_field.reference().image, output, report);
   report.write_ms = write_watch.milliseconds();
   report.peak_memory_mb = peakMemoryMb();
-  writeFile(frame.output / "report.json", toJson(report));
+  writeFile(results.path() / "report.json", toJson(report));
+  guard.check();
+  results.commit();
   printSummary(report, frame.output.string());
+  guard.check();  // the results are whole, but no further frame is wanted
   return !report.verdict.isDoubtful();
 }
 

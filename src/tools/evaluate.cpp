@@ -62,6 +62,11 @@ void evaluate(const Arguments& arguments)
   }
   const cv::Mat result = lfd::readPfm(arguments.result);
   const cv::Mat truth = lfd::readPfm(arguments.truth);
+  if (result.size() != truth.size())
+  {
+    std::cerr << "Note: the result has " << result.cols << " x " << result.rows << " pixels, the truth "
+              << truth.cols << " x " << truth.rows << "; it is taken as the middle of the truth.\n";
+  }
   const cv::Mat mask = arguments.mask.empty() ? cv::Mat() : readMask(arguments.mask);
   const lfd::Evaluation evaluation = lfd::evaluate(result, truth, mask, arguments.border_px);
   std::string line = arguments.json ? toJson(evaluation) : toText(evaluation);

@@ -9,7 +9,7 @@ namespace light_field_depth
 {
 /// The metrics of the HCI 4D Light Field Benchmark (Honauer et al., ACCV 2016). Errors are absolute
 /// differences of disparities in pixels; a result that is not finite counts as bad, and in the mean square
-/// error as wrong by the whole range of the truth.
+/// error as wrong by the whole range of the truth, or by one pixel where that is less.
 struct Evaluation
 {
   double mse_100 = 0.0;     ///< mean square error x 100

@@ -1,0 +1,180 @@
+// Disks that become full, signals and limits: the old results or the new ones, and a sentence.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "light_field_depth/io/files.h"
+#include "light_field_depth/io/pfm.h"
+#include "support/program.h"
+#include "support/synthetic_scene.h"
+#include "support/temporary_folder.h"
+
+namespace light_field_depth
+{
+namespace
+{
+using testing::Outcome;
+using testing::quoted;
+using testing::TemporaryFolder;
+
+/// A small calibrated scene, and a folder with results of an earlier one that had a cloud.
+class ToolFaults : public ::testing::Test
+{
+protected:
+  ToolFaults()
+  {
+    testing::SceneSettings settings;
+    settings.size = {64, 48};
+    settings.positions = testing::gridPositions(3, 3);
+    settings.samples = 1;
+    const auto scene = testing::renderScene(testing::standardScene(settings.size), settings);
+    for (const View& view : scene.light_field.views)
+    {
+      const std::string name =
+          "view_" + std::to_string(view.grid.row) + "_" + std::to_string(view.grid.column) + ".png";
+      std::filesystem::create_directories(folder_ / "scene");
+      cv::imwrite((folder_ / "scene" / name).string(), view.image);
+    }
+    folder_.write("results/dense_cloud.ply", "old");
+    folder_.write("results/disparity.pfm", "old");
+    folder_.write("results/report.json", R"({"files": ["dense_cloud.ply", "disparity.pfm", "report.json"]})");
+  }
+
+  std::string command(const std::string& more = "") const
+  {
+    return quoted(ESTIMATE_PROGRAM) + " --input " + quoted((folder_ / "scene").string()) + " --output " +
+           quoted((folder_ / "results").string()) + " --preset fast --threads 2 " + more;
+  }
+
+  std::set<std::string> names() const
+  {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "results"))
+    {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
+  }
+
+  void expectOldResults() const
+  {
+    EXPECT_EQ(names(), (std::set<std::string>{"dense_cloud.ply", "disparity.pfm", "report.json"}));
+    EXPECT_EQ(readFile(folder_ / "results/disparity.pfm"), "old");
+    expectNothingBeside();
+  }
+
+  void expectNewResults() const
+  {
+    EXPECT_EQ(names(),
+              (std::set<std::string>{"confidence.pfm", "disparity.pfm", "disparity.png", "report.json"}));
+    EXPECT_NE(readFile(folder_ / "results/disparity.pfm"), "old");
+    expectNothingBeside();
+  }
+
+  void expectNothingBeside() const
+  {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    {
+      const std::string name = entry.path().filename().string();
+      EXPECT_TRUE(name == "scene" || name == "results") << name;
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ToolFaults, ResultsOfAnEarlierSceneDoNotStay)
+{
+  const Outcome outcome = testing::runProgram(command());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  expectNewResults();
+}
+
+TEST_F(ToolFaults, AFullDiskLeavesTheOldResults)
+{
+  // Blocks of 512 bytes: the maps of 64 x 48 floats take 12 kB.
+  const Outcome outcome = testing::runProgram("ulimit -f 8; " + command());
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.errors.find("cannot be written"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  expectOldResults();
+}
+
+TEST_F(ToolFaults, SignalsLeaveTheOldResultsOrTheNewOnes)
+{
+  for (const std::string signal : {"TERM", "HUP"})
+  {
+    // The hidden folder tells that the work has begun.
+    const Outcome outcome = testing::runProgram("(" + command("--save-intermediate") + " & program=$!; cd " +
+                                                quoted(folder_.path().string()) +
+                                                "; until ls -d .light_field_depth.partial-* >&2 || ! kill -0 "
+                                                "$program; do :; done 2>/dev/null; kill -" +
+                                                signal + " $program 2>/dev/null; wait $program)");
+    if (outcome.exit_code == 130)
+    {
+      expectOldResults();
+      EXPECT_NE(outcome.errors.find("interrupted"), std::string::npos) << outcome.errors;
+    }
+    else
+    {
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+      return;
+    }
+  }
+}
+
+TEST_F(ToolFaults, OutputThatCannotBeWrittenIsAnError)
+{
+  for (const std::string& program : {command(), quoted(ESTIMATE_PROGRAM) + " --help"})
+  {
+    const Outcome outcome = testing::runProgram("(" + program + " >/dev/full)");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.errors.find("Standard output cannot be written"), std::string::npos) << outcome.errors;
+  }
+}
+
+TEST_F(ToolFaults, TooLittleMemoryIsASentence)
+{
+  const std::string limit = "ulimit -v 700000; ";
+  if (testing::runProgram(limit + quoted(ESTIMATE_PROGRAM) + " --help").exit_code != 0)
+  {
+    GTEST_SKIP() << "the program does not start in so little memory, as with sanitizers";
+  }
+  std::filesystem::remove_all(folder_ / "scene");
+  for (const char* const name : {"scene/view_0_0.png", "scene/view_0_1.png"})
+  {
+    folder_.write(name, "");
+    cv::imwrite((folder_ / name).string(), cv::Mat(5000, 5000, CV_8UC3, cv::Scalar(1, 2, 3)));
+  }
+  const Outcome outcome = testing::runProgram(limit + command());
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.errors.find("memory does not suffice"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  expectOldResults();
+}
+
+TEST(EvaluateFaults, AMapWithoutValuesIsBadWhateverTheTruth)
+{
+  const TemporaryFolder folder;
+  writePfm(folder / "truth.pfm", cv::Mat(60, 70, CV_32FC1, cv::Scalar(1.5)));
+  writePfm(folder / "result.pfm", cv::Mat(60, 70, CV_32FC1, cv::Scalar(std::nan(""))));
+  const std::string command = quoted(EVALUATE_PROGRAM) + " --truth " +
+                              quoted((folder / "truth.pfm").string()) + " --result " +
+                              quoted((folder / "result.pfm").string());
+  const Outcome unknown = testing::runProgram(command);
+  EXPECT_NE(unknown.output.find("mse_100 100.000"), std::string::npos) << unknown.output;
+  EXPECT_NE(unknown.output.find("badpix_007 100.000"), std::string::npos) << unknown.output;
+  writePfm(folder / "result.pfm", cv::Mat(50, 64, CV_32FC1, cv::Scalar(1.5)));
+  const Outcome smaller = testing::runProgram(command);
+  EXPECT_EQ(smaller.exit_code, 0);
+  EXPECT_NE(smaller.errors.find("64 x 50 pixels, the truth 70 x 60"), std::string::npos) << smaller.errors;
+}
+
+}  // namespace
+}  // namespace light_field_depth
