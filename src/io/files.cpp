@@ -30,64 +30,29 @@ constexpr mode_t ANYBODY = 0666;  // less what the user's umask takes away
                    "; check the folder's permissions and the space on the disk.");
 }
 
-/// A new file that is gone at the end of its life unless it was renamed.
-class TemporaryFile
+/// Created anew, never one that is there or that a link leads to.
+void createFile(const fs::path& path, const fs::path& target)
 {
-public:
-  explicit TemporaryFile(const fs::path& target)
-      : target_(target), path_(hiddenNameBeside(target)),
-        descriptor_(open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, ANYBODY))
+  const Descriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, ANYBODY));
+  if (!file.isOpen())
   {
-    if (!descriptor_.isOpen())
-    {
-      failToWrite(target_, errno);
-    }
+    failToWrite(target, errno);
   }
-  ~TemporaryFile()
-  {
-    if (!renamed_)
-    {
-      unlink(path_.c_str());
-    }
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+}
 
-  void write(const std::string& content)
+void fill(const Descriptor& file, const std::string& content, const fs::path& target)
+{
+  std::size_t done = 0;
+  while (done < content.size())
   {
-    std::size_t done = 0;
-    while (done < content.size())
+    const ssize_t count = write(file.number(), content.data() + done, content.size() - done);
+    if (count < 0 && errno != EINTR)
     {
-      const ssize_t count = ::write(descriptor_.number(), content.data() + done, content.size() - done);
-      if (count < 0 && errno != EINTR)
-      {
-        failToWrite(target_, errno);
-      }
-      done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+      failToWrite(target, errno);
     }
-    // Full disks may show only here. Some file systems have no such call.
-    if (fsync(descriptor_.number()) != 0 && errno != EINVAL && errno != ENOSYS)
-    {
-      failToWrite(target_, errno);
-    }
+    done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
   }
-
-  void moveToTarget()
-  {
-    if (std::rename(path_.c_str(), target_.c_str()) != 0)
-    {
-      failToWrite(target_, errno);
-    }
-    renamed_ = true;
-    syncFolder(folderOf(target_));
-  }
-
-private:
-  fs::path target_;
-  fs::path path_;
-  Descriptor descriptor_;
-  bool renamed_ = false;
-};
+}
 
 }  // namespace
 
@@ -130,18 +95,51 @@ std::string readFile(const fs::path& path)
   }
 }
 
-void writeFile(const fs::path& path, const std::string& content)
+PendingFile::PendingFile(const fs::path& target) : target_(target), path_(hiddenNameBeside(target))
 {
   std::error_code error;
-  const fs::file_status there = fs::symlink_status(path, error);
+  const fs::file_status there = fs::symlink_status(target, error);
   if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
   {
-    throw InputError("'" + path.string() +
+    throw InputError("'" + target.string() +
                      "' cannot be written: a folder, pipe or device of that name is there; choose another.");
   }
-  TemporaryFile temporary(path);
-  temporary.write(content);
-  temporary.moveToTarget();
+  createFile(path_, target_);
+}
+
+PendingFile::~PendingFile()
+{
+  if (!path_.empty())
+  {
+    unlink(path_.c_str());
+  }
+}
+
+void PendingFile::commit()
+{
+  const Descriptor file(open(path_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
+  // Full disks may show only here. Some file systems have no such call.
+  if (!file.isOpen() || (fsync(file.number()) != 0 && errno != EINVAL && errno != ENOSYS) ||
+      std::rename(path_.c_str(), target_.c_str()) != 0)
+  {
+    failToWrite(target_, errno);
+  }
+  path_.clear();
+  syncFolder(folderOf(target_));
+}
+
+void writeFile(const fs::path& path, const std::string& content)
+{
+  PendingFile pending(path);
+  {
+    const Descriptor file(open(pending.path().c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
+    if (!file.isOpen())
+    {
+      failToWrite(path, errno);
+    }
+    fill(file, content, path);
+  }
+  pending.commit();
 }
 
 void makeFolder(const fs::path& folder)

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/dataset.h"
+#include "light_field_depth/ros/view_array.h"
+#include "tools/number_checks.h"
 
 namespace light_field_depth
 {
@@ -46,6 +49,22 @@ Calibration givenCalibration(const DatasetInputOptions& options, const cv::Size&
   calibration.principal_point_px = {0.5 * (size.width - 1), 0.5 * (size.height - 1)};
   calibration.disparity_offset_px = options.disparity_offset_px;
   return calibration;
+}
+
+/// Nobody could tell the views apart.
+void checkTopics(const LightField& light_field, const std::string& option, const std::string& pattern)
+{
+  std::map<std::string, GridPosition> views;
+  for (const View& view : light_field.views)
+  {
+    const auto [other, is_new] = views.try_emplace(topicFromPattern(pattern, view.grid), view.grid);
+    if (!is_new)
+    {
+      throw InputError(option + " '" + pattern + "' gives the views " + toString(other->second) + " and " +
+                       toString(view.grid) + " one topic, " + other->first +
+                       "; put {row} and {column} into it.");
+    }
+  }
 }
 
 GridPosition referenceFrom(const std::string& text)
@@ -106,17 +125,19 @@ void addDatasetInputOptions(CLI::App& app, DatasetInputOptions& options)
                  "ROW,COL of the reference view (the middle one by default)");
   app.add_option("--rate", options.rate_hz, "Frames a second")
       ->check(CLI::Range(1e-3, 1e4))
+      ->check(FINITE)
       ->capture_default_str();
   app.add_option("--frame-id", options.frame_id, "Frame of the images")->capture_default_str();
   app.add_option("--image-topic", options.topics.image, "Pattern of the image topics")->capture_default_str();
   app.add_option("--camera-info-topic", options.topics.camera_info, "Pattern of the CameraInfo topics")
       ->capture_default_str();
   app.add_option("--baseline", options.baseline_m, "Metres between adjacent views, for a dataset without it")
-      ->check(CLI::PositiveNumber);
+      ->check(POSITIVE);
   app.add_option("--focal-length", options.focal_length_px, "Pixels, for a dataset without it")
-      ->check(CLI::PositiveNumber);
+      ->check(POSITIVE);
   app.add_option("--disparity-offset", options.disparity_offset_px,
                  "Change of the principal point from a view to the next, pixels; with --baseline")
+      ->check(FINITE)
       ->capture_default_str();
 }
 
@@ -145,6 +166,8 @@ CalibratedDataset readCalibratedDataset(const DatasetInputOptions& options)
   numberFromZero(dataset.light_field);
   CalibratedDataset result;
   result.light_field = selectViews(dataset.light_field, viewSelectionFromString(options.views));
+  checkTopics(result.light_field, "--image-topic", options.topics.image);
+  checkTopics(result.light_field, "--camera-info-topic", options.topics.camera_info);
   if (options.baseline_m || options.focal_length_px)
   {
     result.light_field.calibration = givenCalibration(options, result.light_field.size());

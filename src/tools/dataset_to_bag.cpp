@@ -1,4 +1,5 @@
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -6,7 +7,9 @@
 #include <rosbag/bag.h>
 
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/io/files.h"
 #include "tools/dataset_input.h"
+#include "tools/interruption.h"
 #include "tools/tool_main.h"
 
 namespace light_field_depth
@@ -20,18 +23,50 @@ struct BagOptions
   bool compress = false;
 };
 
-/// @throw InputError
-void openForWriting(rosbag::Bag& bag, const std::string& file)
+/// Frames from now on, all alike.
+void writeFrames(const std::vector<ViewMessages>& views, const BagOptions& options, double rate_hz,
+                 const InterruptionGuard& guard, rosbag::Bag& bag)
 {
+  bag.setCompression(options.compress ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed);
+  const ros::WallTime now = ros::WallTime::now();
+  const ros::Time start(now.sec, now.nsec);
+  for (int frame = 0; frame < options.count; ++frame)
+  {
+    const ros::Time stamp = start + ros::Duration(frame / rate_hz);
+    for (const ViewMessages& view : views)
+    {
+      guard.check();
+      view.camera_info->header.stamp = stamp;
+      view.image->header.stamp = stamp;
+      bag.write(view.camera_info_topic, stamp, *view.camera_info);
+      bag.write(view.image_topic, stamp, *view.image);
+    }
+  }
+}
+
+/// The bag under its name when it is whole; until then, and after an error or a signal, what was there
+/// before.
+/// @throw InputError, Cancelled
+void writeWholeBag(const std::vector<ViewMessages>& views, const BagOptions& options, double rate_hz)
+{
+  const InterruptionGuard guard;
+  PendingFile pending(options.file);
+  auto bag = std::make_unique<rosbag::Bag>();
   try
   {
-    bag.open(file, rosbag::bagmode::Write);
+    bag->open(pending.path().string(), rosbag::bagmode::Write);
+    writeFrames(views, options, rate_hz, guard, *bag);
+    bag->close();
   }
   catch (const rosbag::BagException& error)
   {
-    throw InputError("The bag " + file + " cannot be written (" + error.what() +
-                     "); check that its folder exists and may be written to.");
+    // Its destructor would try to write again, and end the program when that fails again.
+    static_cast<void>(bag.release());
+    throw InputError("The bag " + options.file + " cannot be written (" + error.what() +
+                     "); check the folder's permissions and the space on the disk.");
   }
+  guard.check();
+  pending.commit();
 }
 
 void writeBag(const DatasetInputOptions& input, const BagOptions& options)
@@ -46,23 +81,7 @@ void writeBag(const DatasetInputOptions& input, const BagOptions& options)
   const std::vector<ViewMessages> views =
       viewMessages(dataset.light_field, *dataset.light_field.calibration, header, input.topics);
 
-  rosbag::Bag bag;
-  openForWriting(bag, options.file);
-  bag.setCompression(options.compress ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed);
-  const ros::WallTime now = ros::WallTime::now();
-  const ros::Time start(now.sec, now.nsec);
-  for (int frame = 0; frame < options.count; ++frame)
-  {
-    const ros::Time stamp = start + ros::Duration(frame / input.rate_hz);
-    for (const ViewMessages& view : views)
-    {
-      view.camera_info->header.stamp = stamp;
-      view.image->header.stamp = stamp;
-      bag.write(view.camera_info_topic, stamp, *view.camera_info);
-      bag.write(view.image_topic, stamp, *view.image);
-    }
-  }
-  bag.close();
+  writeWholeBag(views, options, input.rate_hz);
   std::cout << options.file << ": " << options.count << " frame(s) of " << views.size() << " views, "
             << views.front().image_topic << " to " << views.back().image_topic << std::endl;
 }

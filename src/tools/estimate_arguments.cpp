@@ -2,6 +2,7 @@
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/pipeline_options_io.h"
+#include "tools/number_checks.h"
 
 namespace light_field_depth
 {
@@ -57,19 +58,20 @@ void declare(CLI::App& app, EstimateArguments& arguments)
                "also write the results of the single stages to OUTPUT/intermediate");
   declareOutput(app, arguments.output_files);
   app.add_option("--focal-length", arguments.camera.focal_length_px, "pixels, for depth in metres")
-      ->check(CLI::PositiveNumber);
+      ->check(POSITIVE);
   app.add_option("--baseline", arguments.baseline_m,
                  "metres between adjacent views, or X,Y: between columns and between rows")
       ->delimiter(',')
       ->expected(1, 2)
-      ->check(CLI::PositiveNumber);
+      ->check(POSITIVE);
   app.add_option("--principal-point", arguments.principal_point_px,
                  "X,Y in pixels; the image's middle by default")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->check(FINITE);
   app.add_option("--focus-distance", arguments.camera.focus_distance_m,
                  "metres to the plane of zero disparity; parallel cameras by default")
-      ->check(CLI::PositiveNumber);
+      ->check(POSITIVE);
   app.add_flag(
       "--strict", arguments.strict,
       "exit with 3 if the verdict on the result has a warning; the results are written all the same");

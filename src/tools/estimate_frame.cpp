@@ -87,7 +87,7 @@ bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& inpu
     report.options.disparity_range = dataset.disparity_range;
     report.range_source = RangeSource::Dataset;
   }
-  const InterruptionGuard guard(pipeline);
+  const InterruptionGuard guard(&pipeline);
   ResultFolder results(frame.output);
   report.threads = pipeline.threads();
   const PipelineResult result =

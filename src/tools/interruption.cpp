@@ -31,10 +31,10 @@ void stop(int signal)
 
 }  // namespace
 
-InterruptionGuard::InterruptionGuard(Pipeline& pipeline)
+InterruptionGuard::InterruptionGuard(Pipeline* pipeline)
 {
   signals = 0;
-  running_pipeline = &pipeline;
+  running_pipeline = pipeline;
   for (std::size_t i = 0; i < SIGNALS.size(); ++i)
   {
     struct sigaction action = {};

@@ -1,9 +1,8 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_TOOLS_INTERRUPTION_H
 #define LIGHT_FIELD_DEPTH_SRC_TOOLS_INTERRUPTION_H
 
-#include <csignal>
-
 #include <array>
+#include <csignal>
 
 #include "light_field_depth/core/pipeline.h"
 
@@ -15,7 +14,8 @@ namespace light_field_depth
 class InterruptionGuard
 {
 public:
-  explicit InterruptionGuard(Pipeline& pipeline);
+  /// @param pipeline that is cancelled, if any
+  explicit InterruptionGuard(Pipeline* pipeline = nullptr);
   ~InterruptionGuard();
   InterruptionGuard(const InterruptionGuard&) = delete;
   InterruptionGuard& operator=(const InterruptionGuard&) = delete;
