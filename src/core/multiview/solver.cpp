@@ -249,6 +249,7 @@ void Solver::refine(const SolverSettings& settings, RunContext& context)
   {
     linearize(settings, context);
     const StageTimer timer(context, "smooth");
+    smoothing.follow_slopes = i + 1 == settings.refinements;
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity_);
     keepNearLabels(context);
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/light_field/pixel_kernels.h"
+#include "core/multiview/refine/slope_kernels.h"
 #include "core/multiview/refine/smoothing_kernels.h"
 
 namespace light_field_depth::multiview
@@ -74,11 +75,21 @@ void EdgeAwareSmoother::run(const cv::Mat& weight, const cv::Mat& target, const 
   link_left_.create(disparity.rows, disparity.cols + 1, CV_32FC1);
   link_above_.create(disparity.rows + 1, disparity.cols, CV_32FC1);
   link_above_.row(disparity.rows).setTo(0.0F);
-  const LinkedGrid grid{weight, target, link_left_, link_above_, disparity};
-  for (const float flat_px : settings.flat_px)
+  level_.assign(static_cast<std::size_t>(disparity.cols), 0.0F);
+  for (std::size_t i = 0; i < settings.flat_px.size(); ++i)
   {
-    lines_.solveRows(
-        grid, [&](int first, int last) { updateLinks(disparity, flat_px, first, last); }, pool);
+    const float flat_px = settings.flat_px[i];
+    const bool lean = settings.follow_slopes && i > 0;
+    if (lean)
+    {
+      slopes_.find(disparity, weight, guide_left_, guide_above_, settings.slopes, pool);
+      pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
+                       [&](int first, int last) { updateLinks(disparity, flat_px, lean, first, last); });
+      leanTargets(weight, target, pool);
+    }
+    const LinkedGrid grid{weight, lean ? leaning_ : target, link_left_, link_above_, disparity};
+    const auto link = [&](int first, int last) { updateLinks(disparity, flat_px, lean, first, last); };
+    lines_.solveRows(grid, lean ? LineSolver::PrepareBand() : link, pool);
     lines_.solveColumns(grid, pool);
     coarse_.correct(grid, pool);
     lines_.solveRows(grid, {}, pool);
@@ -86,14 +97,31 @@ void EdgeAwareSmoother::run(const cv::Mat& weight, const cv::Mat& target, const 
   }
 }
 
-void EdgeAwareSmoother::updateLinks(const cv::Mat& disparity, float flat_px, int first, int last)
+void EdgeAwareSmoother::updateLinks(const cv::Mat& disparity, float flat_px, bool lean, int first, int last)
 {
   for (int y = first; y < last; ++y)
   {
     linkRow({guide_left_.ptr<float>(y), guide_above_.ptr<float>(y), disparity.ptr<float>(y),
-             disparity.ptr<float>(std::max(y - 1, 0)), disparity.cols, flat_px, link_left_.ptr<float>(y),
+             disparity.ptr<float>(std::max(y - 1, 0)), lean ? slopes_.left(y) : level_.data(),
+             lean ? slopes_.above(y) : level_.data(), disparity.cols, flat_px, link_left_.ptr<float>(y),
              link_above_.ptr<float>(y)});
   }
+}
+
+void EdgeAwareSmoother::leanTargets(const cv::Mat& weight, const cv::Mat& target, ThreadPool& pool)
+{
+  leaning_.create(target.size(), CV_32FC1);
+  pool.parallelFor(0, target.rows, ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     for (int y = first; y < last; ++y)
+                     {
+                       leanRow({target.ptr<float>(y), weight.ptr<float>(y), link_left_.ptr<float>(y),
+                                link_above_.ptr<float>(y), link_above_.ptr<float>(y + 1), slopes_.left(y),
+                                slopes_.above(y), slopes_.above(std::min(y + 1, target.rows - 1)),
+                                target.cols, leaning_.ptr<float>(y)});
+                     }
+                   });
 }
 
 }  // namespace light_field_depth::multiview

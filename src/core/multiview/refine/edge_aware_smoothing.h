@@ -2,6 +2,7 @@
 #define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_EDGE_AWARE_SMOOTHING_H
 
 #include <array>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -9,23 +10,28 @@
 #include "core/light_field/view_set.h"
 #include "core/multiview/refine/coarse_correction.h"
 #include "core/multiview/refine/line_solver.h"
+#include "core/multiview/refine/surface_slopes.h"
 #include "light_field_depth/core/thread_pool.h"
 
 namespace light_field_depth::multiview
 {
 struct SmoothingSettings
 {
-  float strength = 200.0F;          ///< alpha, against the curvature of the data
-  float image_edge_decay = 100.0F;  ///< kappa: links weaken by exp(-kappa * change of colour / 765)
+  float strength = 200.0F;         ///< alpha, against the curvature of the data
+  float image_edge_decay = 85.0F;  ///< kappa: links weaken by exp(-kappa * change of colour / 765)
   /// eps of one reweighting after the other: changes of the disparity above it are charged linearly. Wide at
-  /// first, so that what is far from the minimum comes near it before steps are told from slopes.
-  std::array<float, 3> flat_px = {0.25F, 0.0625F, 0.015F};
+  /// first, so that what is far from the minimum comes near it before steps are told from slopes. A third
+  /// more of each costs cotton 0.02 % and antinous 0.1 % BadPix 0.03 (docs/experiments.md).
+  std::array<float, 3> flat_px = {0.15F, 0.04F, 0.012F};
+  /// From the second reweighting on surfaces go on with their slopes; else they are level.
+  bool follow_slopes = false;
+  SlopeSettings slopes;
 };
 
-/// Minimises  sum_p w_p (d_p - t_p)^2 + sum_pq s_pq(d) (d_p - d_q)^2  over 4-neighbours by reweighted
-/// least squares: for each reweighting the lines are solved exactly, rows and columns in turn, then what is
-/// wrong over many pixels is corrected on coarser grids, then the lines again. Keeps its memory; one call at
-/// a time.
+/// Minimises  sum_p w_p (d_p - t_p)^2 + sum_pq s_pq(d) (d_p - d_q - m_pq)^2  over 4-neighbours by reweighted
+/// least squares, m the slope of the surface (surface_slopes.h) or 0: for each reweighting the lines are
+/// solved exactly, rows and columns in turn, then what is wrong over many pixels is corrected on coarser
+/// grids, then the lines again. Keeps its memory; one call at a time.
 class EdgeAwareSmoother
 {
 public:
@@ -42,12 +48,17 @@ public:
 private:
   struct Scratch;
 
-  void updateLinks(const cv::Mat& disparity, float flat_px, int first, int last);
+  /// Of the rows first .. last - 1.
+  void updateLinks(const cv::Mat& disparity, float flat_px, bool lean, int first, int last);
+  void leanTargets(const cv::Mat& weight, const cv::Mat& target, ThreadPool& pool);
 
   cv::Mat guide_left_;   // link strength between (x - 1, y) and (x, y) from the image
   cv::Mat guide_above_;  // between (x, y - 1) and (x, y)
   cv::Mat link_left_;    // with the disparity's part; one more column, and 0 at both ends
   cv::Mat link_above_;   // one more row, and 0 in the first and the last
+  SurfaceSlopes slopes_;
+  cv::Mat leaning_;           // targets that make the slopes cost nothing
+  std::vector<float> level_;  // no slope
   LineSolver lines_;
   CoarseCorrection coarse_;
   ScratchPool<Scratch> scratch_;

@@ -32,13 +32,16 @@ void linkRowSimd(const LinkRow& row)
             [&](auto f, int x)
             {
               const auto change =
-                  hn::Sub(hn::LoadU(f, row.disparity + x), hn::LoadU(f, row.disparity + x - 1));
+                  hn::Sub(hn::Sub(hn::LoadU(f, row.disparity + x), hn::LoadU(f, row.disparity + x - 1)),
+                          hn::LoadU(f, row.slope_left + x));
               hn::StoreU(robust(f, hn::LoadU(f, row.guide_left + x), change), f, row.left + x);
             });
   forPixels(0, row.width,
             [&](auto f, int x)
             {
-              const auto change = hn::Sub(hn::LoadU(f, row.disparity + x), hn::LoadU(f, row.above + x));
+              const auto change =
+                  hn::Sub(hn::Sub(hn::LoadU(f, row.disparity + x), hn::LoadU(f, row.above + x)),
+                          hn::LoadU(f, row.slope_above + x));
               hn::StoreU(robust(f, hn::LoadU(f, row.guide_above + x), change), f, row.up + x);
             });
 }

@@ -16,13 +16,15 @@ constexpr float TINY_WEIGHT = 1e-5F;
 /// Rows that are solved side by side, a multiple of every vector.
 constexpr int ROWS_AT_ONCE = 32;
 
-/// The links of a row of the disparity: link = guide * flat / sqrt(change^2 + flat^2).
+/// The links of a row of the disparity: link = guide * flat / sqrt((change - slope)^2 + flat^2).
 struct LinkRow
 {
   const float* guide_left = nullptr;   ///< [width]
   const float* guide_above = nullptr;  ///< [width]
   const float* disparity = nullptr;    ///< [width]
   const float* above = nullptr;        ///< the row above, the same row in the first one
+  const float* slope_left = nullptr;   ///< [width], changes that cost nothing
+  const float* slope_above = nullptr;  ///< [width]
   int width = 0;
   float flat_px = 0.0F;
   float* left = nullptr;  ///< [width + 1], result: 0 at both ends

@@ -47,11 +47,13 @@ void linkRowPlain(const LinkRow& row)
   row.left[row.width] = 0.0F;
   for (int x = 1; x < row.width; ++x)
   {
-    row.left[x] = robustLink(row.guide_left[x], row.disparity[x] - row.disparity[x - 1], row.flat_px);
+    row.left[x] = robustLink(row.guide_left[x], row.disparity[x] - row.disparity[x - 1] - row.slope_left[x],
+                             row.flat_px);
   }
   for (int x = 0; x < row.width; ++x)
   {
-    row.up[x] = robustLink(row.guide_above[x], row.disparity[x] - row.above[x], row.flat_px);
+    row.up[x] =
+        robustLink(row.guide_above[x], row.disparity[x] - row.above[x] - row.slope_above[x], row.flat_px);
   }
 }
 

@@ -98,6 +98,7 @@ TEST_P(SmoothingKernels, LinksEqualThePlainVersion)
 {
   const cv::Mat guide = randomMap(2, WIDTH, 0.0F, 200.0F);
   const cv::Mat disparity = randomMap(2, WIDTH, 0.0F, 0.1F);
+  const cv::Mat slopes = randomMap(2, WIDTH, -0.01F, 0.01F);
   for (const int width : {1, 2, 33, WIDTH})
   {
     std::vector<cv::Mat> links(4);
@@ -106,6 +107,8 @@ TEST_P(SmoothingKernels, LinksEqualThePlainVersion)
                 guide.ptr<float>(1),
                 disparity.ptr<float>(1),
                 disparity.ptr<float>(0),
+                slopes.ptr<float>(0),
+                slopes.ptr<float>(1),
                 width,
                 0.015F,
                 links[0].ptr<float>(),
@@ -238,6 +241,7 @@ void sweepPlainly(const System& system, cv::Mat& values)
 cv::Mat smoothedPlainly(const PlanarImage& guide, const cv::Mat& weight, const cv::Mat& target,
                         const SmoothingSettings& settings, const cv::Mat& start)
 {
+  const std::vector<float> level(static_cast<std::size_t>(target.cols), 0.0F);
   const int width = start.cols;
   const int height = start.rows;
   System system(height, width);
@@ -266,8 +270,8 @@ cv::Mat smoothedPlainly(const PlanarImage& guide, const cv::Mat& weight, const c
     for (int y = 0; y < height; ++y)
     {
       linkRowPlain({guide_left.ptr<float>(y), guide_above.ptr<float>(y), values.ptr<float>(y),
-                    values.ptr<float>(std::max(y - 1, 0)), width, flat_px, system.left.ptr<float>(y),
-                    system.up.ptr<float>(y)});
+                    values.ptr<float>(std::max(y - 1, 0)), level.data(), level.data(), width, flat_px,
+                    system.left.ptr<float>(y), system.up.ptr<float>(y)});
     }
     sweepPlainly(system, values);
     coarse.correct({system.weight, system.target, system.left, system.up, values}, pool);
