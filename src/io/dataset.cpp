@@ -274,6 +274,11 @@ std::string toString(LayoutSource source)
 Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
 {
   FolderDescription description = describe(folder, options);
+  if (options.frame && description.frames.empty())
+  {
+    throw InputError("The frame '" + *options.frame + "' is asked for, but '" + folder.string() +
+                     "' holds a single light field; leave --frame out.");
+  }
   ViewStore store(description.views, options.threads);
   settleGrid(description, options, store);
   if (options.camera.baseline_m)
