@@ -210,6 +210,12 @@ void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) co
 {
   memory_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
   estimate.confidence = memory_->solver.confidence().clone();
+  if (estimate.range.min >= estimate.range.max)
+  {
+    // No disparity had any support: the views are of nothing, of noise or not of one scene, and agree by
+    // smoothness alone.
+    estimate.confidence.setTo(0.0F);
+  }
 }
 
 /// Where only two views tell the depth, a map of the other view tells which pixels both agree on; the rest is

@@ -85,7 +85,7 @@ public:
     }
     if (!found_)
     {
-      range_ = {0.0F, 0.0F};
+      return {0.0F, 0.0F};
     }
     const float pad_labels = options.pad_labels + (noisy_ ? PAD_LABELS_OF_NOISE : 0.0F);
     const float pad = std::max(options.pad_fraction * (range_.max - range_.min), pad_labels * step_);

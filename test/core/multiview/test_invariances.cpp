@@ -174,6 +174,22 @@ TEST(Planes, OfEverySlopeAndDisparityAreFoundToAFiftiethOfAPixel)
   }
 }
 
+TEST(ViewsOfNoise, AreNotTrusted)
+{
+  for (const int side : {3, 5})
+  {
+    std::vector<View> views;
+    for (const GridPosition& position : testing::gridPositions(side, side))
+    {
+      cv::Mat noise(96, 128, CV_8UC3);
+      cv::RNG(static_cast<std::uint64_t>(views.size() + 1)).fill(noise, cv::RNG::UNIFORM, 0, 256);
+      views.push_back(gridView(position.row, position.column, noise));
+    }
+    const auto estimate = Pipeline(2).run(makeLightField(views), {}, {}).estimate;
+    EXPECT_LT(cv::mean(estimate.confidence)[0], 0.05) << side;
+  }
+}
+
 TEST(Threads, OfAnyNumberGiveTheSameBytes)
 {
   const LightField light_field = standardLightField().light_field;
