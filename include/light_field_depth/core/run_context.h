@@ -2,6 +2,7 @@
 #define LIGHT_FIELD_DEPTH_CORE_RUN_CONTEXT_H
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <utility>
@@ -26,11 +27,24 @@ using IntermediateSink = std::function<void(const std::string& name, const cv::M
 /// Receives the name of the stage that begins and the fraction of the work done before it, 0..1.
 using ProgressSink = std::function<void(const std::string& stage, double fraction)>;
 
+/// A stage that is going to run.
+struct ExpectedStage
+{
+  std::string stage;
+  double share = 0.0;  ///< of the time, in any unit that all stages have in common
+};
+
 /// What every stage of a run shares besides its data. Stages are named in small letters with underscores,
 /// as in 'visible_cost'. Belongs to one run on one thread.
 struct RunContext
 {
   explicit RunContext(ThreadPool& thread_pool) : pool(thread_pool) {}  ///< a run without sinks
+
+  /// Tells what is going to run, in order; a stage may come more than once. Progress is measured by it.
+  void expect(std::vector<ExpectedStage> stages);
+  /// Tells the progress sink that a stage begins. One that is not expected any more leaves the fraction where
+  /// it is, which so never falls.
+  void begin(const std::string& stage);
 
   ThreadPool& pool;                    ///< used by one stage at a time
   std::vector<StageTime> stage_times;  ///< in order of first appearance; repeated stages are added up
@@ -39,9 +53,13 @@ struct RunContext
 
   /// Hands an intermediate result to the sink, if there is one. An empty matrix is left out.
   void save(const std::string& name, const cv::Mat& values) const;
+
+private:
+  std::vector<ExpectedStage> expected_;
+  std::size_t next_expected_ = 0;
 };
 
-/// Adds the time from its construction to its destruction to one stage of the context.
+/// Begins a stage of the context, and adds the time from its construction to its destruction to it.
 class StageTimer
 {
 public:

@@ -8,6 +8,7 @@
 
 #include "core/light_field/half_resolution.h"
 #include "core/light_field/view_set.h"
+#include "core/multiview/expected_stages.h"
 #include "core/multiview/maps/left_right_check.h"
 #include "core/multiview/maps/upsampling.h"
 #include "core/multiview/maps/view_maps.h"
@@ -115,6 +116,7 @@ LightField MultiviewEstimator::reduced(const LightField& chosen, RunContext& con
 void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& request, RunContext& context,
                                DisparityEstimate& estimate)
 {
+  context.expect(multiview::expectedStages(options_, isLarge(views), multiview::isPair(views)));
   if (!options_.temporal)
   {
     memory_->sequence.forget();  // no later frame may follow what the solver is going to hold

@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "light_field_depth/core/error.h"
@@ -71,6 +76,57 @@ TEST(Pipeline, LeavesTheViewsAsTheyAre)
             << method << (grey ? ", grey" : ", colour") << ", view " << i;
       }
     }
+  }
+}
+
+/// What a progress sink is told in one run.
+std::vector<std::pair<std::string, double>> progressOf(const LightField& light_field,
+                                                       const PipelineOptions& options)
+{
+  std::vector<std::pair<std::string, double>> told;
+  Pipeline pipeline(2);
+  pipeline.setProgressSink([&](const std::string& stage, double fraction)
+                           { told.emplace_back(stage, fraction); });
+  const PipelineResult result = pipeline.run(light_field, options, {});
+  for (const StageTime& time : result.stage_times)
+  {
+    EXPECT_TRUE(
+        std::any_of(told.begin(), told.end(), [&](const auto& step) { return step.first == time.stage; }))
+        << time.stage;
+  }
+  return told;
+}
+
+TEST(Pipeline, TellsTheProgressOfEveryMethod)
+{
+  const auto input = scene();
+  for (const std::string& method : methodNames())
+  {
+    PipelineOptions options;
+    options.method = methodFromString(method);
+    const auto told = progressOf(input.light_field, options);
+    ASSERT_FALSE(told.empty()) << method;
+    EXPECT_EQ(told.front().second, 0.0) << method;
+    double largest_step = 0.0;
+    for (std::size_t i = 1; i < told.size(); ++i)
+    {
+      EXPECT_GE(told[i].second, told[i - 1].second) << method << ", " << told[i].first;
+      largest_step = std::max(largest_step, told[i].second - told[i - 1].second);
+    }
+    EXPECT_LT(largest_step, 0.5) << method << ": no stage is half of the work";
+    EXPECT_GT(told.back().second, 0.8) << method << ": what is last is near the end";
+    EXPECT_LT(told.back().second, 1.0) << method;
+  }
+}
+
+TEST(Pipeline, TellsTheProgressOfEachStageOfTheDefaultMethod)
+{
+  const auto told = progressOf(scene().light_field, {});
+  for (std::size_t i = 1; i < told.size(); ++i)
+  {
+    // What runs in two parts, one after the other, counts once.
+    EXPECT_TRUE(told[i].second > told[i - 1].second || told[i].first == told[i - 1].first)
+        << told[i].first << " is not among the expected stages";
   }
 }
 
