@@ -1,5 +1,6 @@
 #include "scaling.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <memory>

@@ -1,6 +1,7 @@
 #include "io/view_store.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "io/image_period.h"

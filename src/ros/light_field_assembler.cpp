@@ -1,5 +1,6 @@
 #include "ros/light_field_assembler.h"
 
+#include <cstdint>
 #include <utility>
 
 #include "light_field_depth/core/error.h"

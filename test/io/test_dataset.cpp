@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "dataset_files.h"
 #include "light_field_depth/io/dataset.h"

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "dataset_files.h"
 #include "light_field_depth/core/geometry.h"

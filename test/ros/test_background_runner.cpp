@@ -1,6 +1,7 @@
 #include "ros/background_runner.h"
 
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <thread>
 #include <vector>

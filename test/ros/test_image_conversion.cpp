@@ -1,6 +1,7 @@
 #include "light_field_depth/ros/image_conversion.h"
 
 #include <cstring>
+#include <utility>
 
 #include <cv_bridge/cv_bridge.h>
 #include <gtest/gtest.h>
