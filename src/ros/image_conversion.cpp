@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include <sensor_msgs/image_encodings.h>
 #include <boost/endian/conversion.hpp>
@@ -86,6 +87,18 @@ void checkLayout(const sensor_msgs::Image& message, const Encoding& encoding, co
   }
 }
 
+/// @return the image itself, sharing its pixels, where there is nothing to convert
+cv::Mat converted(const cv::Mat& image, const Encoding& encoding)
+{
+  if (encoding.conversion == NO_CONVERSION)
+  {
+    return image;
+  }
+  cv::Mat result;
+  cv::cvtColor(image, result, encoding.conversion);
+  return result;
+}
+
 }  // namespace
 
 cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name)
@@ -100,15 +113,20 @@ cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& v
   checkLayout(message, *encoding, view_name);
   // cv::Mat knows no constant memory; what is returned is only read.
   auto* const data = const_cast<std::uint8_t*>(message.data.data());
+  if (message.step % static_cast<std::size_t>(CV_ELEM_SIZE1(encoding->type)) != 0)
+  {
+    // Rows that begin between two values are copied to where values may begin.
+    cv::Mat aligned(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type);
+    for (int y = 0; y < aligned.rows; ++y)
+    {
+      std::memcpy(aligned.ptr(y), data + static_cast<std::size_t>(y) * message.step,
+                  static_cast<std::size_t>(aligned.cols) * aligned.elemSize());
+    }
+    return converted(aligned, *encoding);
+  }
   cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type, data,
                  message.step);
-  if (encoding->conversion == NO_CONVERSION)
-  {
-    return shared;
-  }
-  cv::Mat converted;
-  cv::cvtColor(shared, converted, encoding->conversion);
-  return converted;
+  return converted(shared, *encoding);
 }
 
 }  // namespace light_field_depth

@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 
@@ -7,11 +8,23 @@
 
 #include "light_field_depth/ros/depth_node.h"
 
+namespace
+{
+/// As roscpp does for SIGINT: the node ends in order and unregisters.
+void requestShutdown(int /*signal*/)
+{
+  ros::requestShutdown();
+}
+
+}  // namespace
+
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "light_field_depth");
   // Otherwise the last NodeHandle, which an exception destroys before it is caught, takes the console along.
   ros::start();
+  std::signal(SIGTERM, requestShutdown);
+  std::signal(SIGHUP, requestShutdown);
   try
   {
     const light_field_depth::DepthNode node(ros::NodeHandle(), ros::NodeHandle("~"));

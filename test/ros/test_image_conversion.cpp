@@ -87,6 +87,19 @@ TEST(ImageConversion, UnderstandsPaddedRows)
   EXPECT_EQ(difference(imageFromMessage(padded, "View (0, 0)"), image), 0.0);
 }
 
+TEST(ImageConversion, UnderstandsRowsThatBeginBetweenTwoValues)
+{
+  const cv::Mat image = pattern(CV_16UC1);
+  sensor_msgs::Image odd = message(encodings::MONO16, image);
+  odd.step = 2 * 30 + 3;
+  odd.data.assign(std::size_t{odd.step} * 20, 0);
+  for (int y = 0; y < image.rows; ++y)
+  {
+    std::memcpy(&odd.data[static_cast<std::size_t>(y) * odd.step], image.ptr(y), 60);
+  }
+  EXPECT_EQ(difference(imageFromMessage(odd, "View (0, 0)"), image), 0.0);
+}
+
 TEST(ImageConversion, NamesViewAndFieldOfWhatCannotBeUsed)
 {
   const sensor_msgs::Image good = message(encodings::MONO8, pattern(CV_8UC1));
