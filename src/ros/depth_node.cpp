@@ -243,6 +243,7 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
   products.subscribers = subscribers;
   products.calibration = *light_field.calibration;
   products.min_confidence = settings.pipeline.min_confidence;
+  products.keep_filled = settings.pipeline.keep_filled;
 
   ProductRequest request;
   request.depth = subscribers.depth;

@@ -54,18 +54,21 @@ struct Bounds
 
 /// Writes d + d_inf where it is valid, NaN elsewhere; returns the bounds of what is valid.
 Bounds writeAbsoluteDisparity(const DisparityEstimate& estimate, float offset_px, float min_confidence,
-                              cv::Mat& absolute)
+                              bool keep_filled, cv::Mat& absolute)
 {
   Bounds bounds;
   for (int y = 0; y < absolute.rows; ++y)
   {
     const float* const disparity = estimate.disparity.ptr<float>(y);
     const float* const confidence = estimate.confidence.ptr<float>(y);
+    const auto* const filled =
+        keep_filled || estimate.filled.empty() ? nullptr : estimate.filled.ptr<std::uint8_t>(y);
     float* const out = absolute.ptr<float>(y);
     for (int x = 0; x < absolute.cols; ++x)
     {
       const float value = disparity[x] + offset_px;
-      const bool valid = confidence[x] >= min_confidence && std::isfinite(value) && value > 0.0F;
+      const bool seen = filled == nullptr || filled[x] == 0;
+      const bool valid = seen && confidence[x] >= min_confidence && std::isfinite(value) && value > 0.0F;
       out[x] = valid ? value : std::numeric_limits<float>::quiet_NaN();
       if (valid)
       {
@@ -107,7 +110,8 @@ ColoredPoint* shapeCloud(const std_msgs::Header& header, std::uint32_t width, st
 
 stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
                                                 const DisparityEstimate& estimate,
-                                                const Calibration& calibration, float min_confidence)
+                                                const Calibration& calibration, float min_confidence,
+                                                bool keep_filled)
 {
   auto message = boost::make_shared<stereo_msgs::DisparityImage>();
   const cv::Size size = estimate.disparity.size();
@@ -121,7 +125,7 @@ stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
 
   const auto offset_px = static_cast<float>(calibration.disparity_offset_px);
   cv::Mat absolute = pixelsOf(message->image, CV_32FC1);
-  const Bounds bounds = writeAbsoluteDisparity(estimate, offset_px, min_confidence, absolute);
+  const Bounds bounds = writeAbsoluteDisparity(estimate, offset_px, min_confidence, keep_filled, absolute);
   // The searched range counts where it is wider than what was found, but never down to infinite depth.
   const float range_min = std::max(estimate.range.min + offset_px, DISPARITY_RESOLUTION_PX);
   message->min_disparity = std::min(bounds.min, range_min);

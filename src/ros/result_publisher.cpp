@@ -74,15 +74,15 @@ Subscribers ResultPublisher::subscribers() const
 
 void ResultPublisher::publish(const FrameProducts& products) const
 {
-  const auto& [header, subscribers, calibration, min_confidence, result, points2, points_dense, info] =
-      products;
+  const auto& [header, subscribers, calibration, min_confidence, keep_filled, result, points2, points_dense,
+               info] = products;
   if (subscribers.camera_info && info != nullptr)
   {
     camera_info_.publish(referenceInfo(header, *info));
   }
   if (subscribers.disparity)
   {
-    disparity_.publish(disparityMessage(header, result.estimate, calibration, min_confidence));
+    disparity_.publish(disparityMessage(header, result.estimate, calibration, min_confidence, keep_filled));
   }
   if (subscribers.disparity_color)
   {

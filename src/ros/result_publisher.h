@@ -43,6 +43,7 @@ struct FrameProducts
   Subscribers subscribers;
   Calibration calibration;
   float min_confidence = 0.0F;
+  bool keep_filled = false;
   PipelineResult result;
   sensor_msgs::PointCloud2Ptr points2;       ///< null when nobody listens to it
   sensor_msgs::PointCloud2Ptr points_dense;  ///< likewise

@@ -82,6 +82,7 @@ void declare(CLI::App& app, EstimateArguments& arguments)
 PipelineOptions makeOptions(const EstimateArguments& arguments)
 {
   PipelineOptions options;
+  options.keep_filled = true;  // maps in files are dense
   if (!arguments.config.empty())
   {
     readOptionsFile(arguments.config, options);

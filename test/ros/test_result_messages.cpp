@@ -51,7 +51,7 @@ float value(const sensor_msgs::Image& image, int y, int x)
 
 TEST(DisparityMessage, GivesTheTrueDepthToAnyConsumer)
 {
-  const auto message = disparityMessage(header(), estimate(), calibration(), 0.0F);
+  const auto message = disparityMessage(header(), estimate(), calibration(), 0.0F, false);
   EXPECT_EQ(message->header.frame_id, "optical");
   EXPECT_EQ(message->image.header.stamp, ros::Time(12, 34));
   EXPECT_EQ(message->image.encoding, "32FC1");
@@ -66,7 +66,7 @@ TEST(DisparityMessage, GivesTheTrueDepthToAnyConsumer)
 
 TEST(DisparityMessage, MarksWhatIsInvalidBelowTheMinimum)
 {
-  const auto message = disparityMessage(header(), estimate(), calibration(), 0.5F);
+  const auto message = disparityMessage(header(), estimate(), calibration(), 0.5F, false);
   EXPECT_FLOAT_EQ(message->min_disparity, 0.5F);
   EXPECT_FLOAT_EQ(message->max_disparity, 5.5F);
   EXPECT_FLOAT_EQ(value(message->image, 0, 1), message->min_disparity - 1.0F) << "not trusted";
@@ -79,13 +79,13 @@ TEST(DisparityMessage, HasAMinimumOfFiniteDepthAndAWindowOfTheWholeImage)
   DisparityEstimate parallel = estimate();
   Calibration unsheared = calibration();
   unsheared.disparity_offset_px = 0.0;
-  const auto message = disparityMessage(header(), parallel, unsheared, 0.0F);
+  const auto message = disparityMessage(header(), parallel, unsheared, 0.0F, false);
   EXPECT_GT(message->min_disparity, 0.0F);
   EXPECT_GT(message->delta_d, 0.0F);
   EXPECT_EQ(message->valid_window.width, 3U);
   EXPECT_EQ(message->valid_window.height, 2U);
   parallel.disparity.setTo(std::numeric_limits<float>::quiet_NaN());
-  const auto nothing = disparityMessage(header(), parallel, unsheared, 0.0F);
+  const auto nothing = disparityMessage(header(), parallel, unsheared, 0.0F, false);
   EXPECT_TRUE(std::isfinite(nothing->min_disparity) && std::isfinite(nothing->max_disparity));
   EXPECT_LT(value(nothing->image, 0, 0), nothing->min_disparity);
 }

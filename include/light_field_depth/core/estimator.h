@@ -17,7 +17,7 @@ struct ViewDisparity
 {
   std::size_t view_index = 0;  ///< into LightField::views of the light field that was given to the estimator
   cv::Mat disparity;           ///< CV_32FC1, pixels per grid step; NaN where unknown
-  cv::Mat confidence;          ///< CV_32FC1, 0..1
+  cv::Mat confidence;          ///< CV_32FC1, 0..1; 0 where the reference's disparity is filled
 };
 
 /// What an estimator finds out about one light field.
@@ -29,6 +29,10 @@ struct DisparityEstimate
   cv::Mat disparity;
   /// CV_32FC1, 0..1; 0 where nothing supports the disparity.
   cv::Mat confidence;
+  /// CV_8UC1, 255 where the views themselves tell no disparity above their noise (blank walls), or only one
+  /// view sees a point of a pair, so that the disparity is filled from what is certain around it: often
+  /// right, never seen. Empty if the method does not tell.
+  cv::Mat filled;
   /// The range that was searched: the given one, or the one that was found.
   DisparityRange range;
   /// How many views took part.

@@ -49,6 +49,9 @@ struct PipelineOptions
   /// Confidence below which the organised cloud and the depth map have NaN. Raise it to see only what is
   /// certain.
   float min_confidence = 0.0F;
+  /// Whether depth map and organised cloud also show what is filled (DisparityEstimate::filled). The dense
+  /// cloud never does, as its least confidence is above 0.
+  bool keep_filled = false;
   DenseCloudOptions dense_cloud;  ///< for the extra cloud of all views
 };
 

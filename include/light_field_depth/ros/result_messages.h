@@ -19,11 +19,12 @@ namespace light_field_depth
 
 /// The disparity of the reference view for any consumer of stereo disparities: the image holds d + d_inf, in
 /// pixels between adjacent views, so that Z = f T / value; min_disparity and max_disparity bound the valid
-/// values. Where the confidence is too low, or a point would lie at infinity or behind the camera, the value
-/// is min_disparity - 1. The valid window is the whole image.
+/// values. Where the confidence is too low, or what is filled is not kept, or a point would lie at infinity
+/// or behind the camera, the value is min_disparity - 1. The valid window is the whole image.
 stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
                                                 const DisparityEstimate& estimate,
-                                                const Calibration& calibration, float min_confidence);
+                                                const Calibration& calibration, float min_confidence,
+                                                bool keep_filled);
 
 /// A 32FC1 image. @param values CV_32FC1
 sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv::Mat& values);

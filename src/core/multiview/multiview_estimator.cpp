@@ -100,8 +100,9 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   if (request.view_disparities)
   {
     const StageTimer timer(context, "view_maps");
-    multiview::warpToViews(light_field, estimate.disparity, estimate.confidence, context.pool,
-                           memory_->view_maps);
+    cv::Mat seen = estimate.confidence.clone();
+    seen.setTo(0.0F, estimate.filled);
+    multiview::warpToViews(light_field, estimate.disparity, seen, context.pool, memory_->view_maps);
     estimate.view_disparities = memory_->view_maps;
   }
   return estimate;
@@ -212,11 +213,13 @@ void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) co
 {
   memory_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
   estimate.confidence = memory_->solver.confidence().clone();
+  estimate.filled = memory_->solver.filled();
   if (estimate.range.min >= estimate.range.max)
   {
     // No disparity had any support: the views are of nothing, of noise or not of one scene, and agree by
     // smoothness alone.
     estimate.confidence.setTo(0.0F);
+    estimate.filled.setTo(255);
   }
 }
 
@@ -250,6 +253,7 @@ void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasur
                                 std::abs(other.steps.y) > std::abs(other.steps.x), {}, context.pool,
                                 estimate.disparity);
   estimate.confidence.setTo(0.0F, unconfirmed);
+  estimate.filled.setTo(255, unconfirmed);
 }
 
 void MultiviewEstimator::upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate)
@@ -260,6 +264,12 @@ void MultiviewEstimator::upsample(const cv::Mat& image, RunContext& context, Dis
   multiview::upsample(estimate.disparity, estimate.confidence, image, context.pool, disparity, confidence);
   estimate.disparity = disparity;
   estimate.confidence = confidence;
+  if (!estimate.filled.empty())
+  {
+    cv::Mat filled;
+    cv::resize(estimate.filled, filled, image.size(), 0.0, 0.0, cv::INTER_NEAREST);
+    estimate.filled = filled;
+  }
 }
 
 }  // namespace light_field_depth

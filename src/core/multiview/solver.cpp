@@ -12,6 +12,8 @@ namespace
 /// range go on.
 constexpr float REFINEMENT_REACH_PX = 1.0F;
 constexpr int ROWS_PER_CHUNK = 32;
+/// A pixel counts as filled where less than half of its data is above the noise.
+constexpr float FILLED_BELOW_SHARE = 0.5F;
 
 /// Bytes hold labels plus VISIBILITY_BIAS; below MAX_VISIBILITY_LABELS.
 constexpr int MAX_LABELS = 240;
@@ -284,6 +286,22 @@ void Solver::linearize(const SolverSettings& settings, RunContext& context)
   linearizer_.run(views_, disparity_, noise_.local_slope_variance, settings.linearization, context.pool,
                   linearization_);
   discount_.apply(settings.noise_discount, context.pool, linearization_);
+}
+
+cv::Mat Solver::filled() const
+{
+  const cv::Mat& share = discount_.share();
+  cv::Mat filled(disparity_.size(), CV_8UC1);
+  for (int y = 0; y < filled.rows; ++y)
+  {
+    const auto* const cells = share.ptr<float>(y / NoiseDiscount::CELL_PX);
+    auto* const row = filled.ptr<std::uint8_t>(y);
+    for (int x = 0; x < filled.cols; ++x)
+    {
+      row[x] = cells[x / NoiseDiscount::CELL_PX] < FILLED_BELOW_SHARE ? 255 : 0;
+    }
+  }
+  return filled;
 }
 
 void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)

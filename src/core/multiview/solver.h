@@ -78,6 +78,9 @@ public:
   /// CV_32FC1 results of the last run; overwritten by the next.
   const cv::Mat& disparity() const { return disparity_; }
   const cv::Mat& confidence() const { return confidence_; }
+  /// CV_8UC1 of the last run, 255 where the views say nothing above their noise, so that the disparity is
+  /// filled from what lies around.
+  cv::Mat filled() const;
 
 private:
   void prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context);

@@ -18,6 +18,8 @@ namespace light_field_depth
 {
 namespace
 {
+constexpr float BELOW_EVERY_CONFIDENCE = -1.0F;
+
 constexpr EnumNames<Method, 2> METHOD_NAMES = {{
     {Method::Multiview, "multiview"},
     {Method::Paper2017, "paper2017"},
@@ -138,17 +140,23 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
                          const ProductRequest& request, RunContext& context, PipelineResult& result)
 {
   const DisparityEstimate& estimate = result.estimate;
+  cv::Mat trust = estimate.confidence;
+  if (!options.keep_filled && !estimate.filled.empty())
+  {
+    trust = trust.clone();
+    trust.setTo(BELOW_EVERY_CONFIDENCE, estimate.filled);
+  }
   if (request.depth)
   {
     const StageTimer timer(context, "depth");
     result.depth = depthMap(estimate.disparity, *light_field.calibration);
-    result.depth.setTo(std::nan(""), estimate.confidence < options.min_confidence);
+    result.depth.setTo(std::nan(""), trust < options.min_confidence);
   }
   if (request.organized_cloud)
   {
     const StageTimer timer(context, "cloud");
     const std::size_t count = estimate.disparity.total();
-    unprojectReference(light_field, estimate.disparity, estimate.confidence, options.min_confidence, pool_,
+    unprojectReference(light_field, estimate.disparity, trust, options.min_confidence, pool_,
                        allocatorOr(request.organized_cloud_allocator, result.organized_cloud)(count));
   }
   if (request.dense_cloud)

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -160,6 +162,39 @@ TEST(Pipeline, RefusesADisparityRangeInWhichNothingCanBeSeen)
     options.disparity_range = DisparityRange{-side, side};
     EXPECT_EQ(pipeline.run(light_field, options, {}).estimate.disparity.size(), light_field.size());
   }
+}
+
+/// What no view tells is known as filled, and is in no product but the map unless it is asked for.
+TEST(Pipeline, KnowsWhatItFills)
+{
+  auto input = scene();
+  const cv::Size size = input.truth.size();
+  const cv::Rect blank(size.width / 2, 0, size.width - size.width / 2, size.height);
+  for (View& view : input.light_field.views)
+  {
+    view.image = view.image.clone();
+    view.image(blank).setTo(cv::Scalar::all(127));
+  }
+  Pipeline pipeline(2);
+  ProductRequest request;
+  request.depth = true;
+  request.organized_cloud = true;
+  PipelineOptions options;
+  const PipelineResult seen = pipeline.run(input.light_field, options, request);
+  const cv::Mat& filled = seen.estimate.filled;
+  ASSERT_EQ(filled.size(), size);
+  const double textured = static_cast<double>(size.area() - blank.area());
+  const int filled_in_texture = cv::countNonZero(filled) - cv::countNonZero(filled(blank));
+  std::cout << filled_in_texture / textured << " of what has texture counts as filled" << std::endl;
+  EXPECT_GE(cv::countNonZero(filled(blank)), 0.98 * blank.area());
+  EXPECT_LE(filled_in_texture, 0.05 * textured);
+  EXPECT_EQ(cv::countNonZero(seen.depth(blank) == seen.depth(blank)),
+            blank.area() - cv::countNonZero(filled(blank)));
+  EXPECT_TRUE(std::isnan(seen.organized_cloud.back().z));
+  options.keep_filled = true;
+  const PipelineResult all = pipeline.run(input.light_field, options, request);
+  EXPECT_EQ(cv::countNonZero(all.depth == all.depth), size.area());
+  EXPECT_TRUE(std::isfinite(all.organized_cloud.back().z));
 }
 
 }  // namespace

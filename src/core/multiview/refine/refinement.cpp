@@ -25,6 +25,9 @@ constexpr std::size_t GRADIENT_PAD = 2;
 /// How much a view adds to the refocused mean, which it takes part in with a weight, against the reference.
 constexpr float SHARE_OF_MEAN = 0.7F;
 
+/// Views are rounded to whole levels: 1/12 of variance, which the derivative of four pixels makes 130/144 of.
+constexpr float ROUNDING_SLOPE_VARIANCE = 130.0F / 144.0F / 12.0F;
+
 std::size_t roundUp(int value, int multiple)
 {
   const int rounded = (value + multiple - 1) / multiple * multiple;
@@ -310,7 +313,7 @@ private:
     const float factor = static_cast<float>(channels_) / (1.0F + SHARE_OF_MEAN * views);
     const auto* const row = slope_variance_.ptr<float>(y);
     std::transform(row, row + width_, scratch_.slope_noise.begin(),
-                   [&](float value) { return factor * value; });
+                   [&](float value) { return factor * std::max(value, ROUNDING_SLOPE_VARIANCE); });
   }
 
   const ViewSet& views_;
