@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Fits the weights of the evidence against a disparity (src/core/multiview/maps/confidence_kernels.cpp).
+"""Fits the weights of the evidence against a disparity (src/core/multiview/maps/confidence_weights.h).
 
 usage: fit_confidence.py RESULT:TRUTH.pfm[:NOISE] ... [--threshold 0.07] [--border 15]
 

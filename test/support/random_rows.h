@@ -1,10 +1,13 @@
 #ifndef LIGHT_FIELD_DEPTH_TEST_SUPPORT_RANDOM_ROWS_H
 #define LIGHT_FIELD_DEPTH_TEST_SUPPORT_RANDOM_ROWS_H
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
+
+#include <opencv2/core.hpp>
 
 namespace light_field_depth
 {
@@ -47,6 +50,37 @@ Values firstPart(const Values& values, std::size_t count)
   return Values(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
+namespace testing
+{
+/// @return integers from low to high, the same ones for the same seed
+template <typename Value>
+std::vector<Value> randomValues(std::size_t count, int low, int high, unsigned seed)
+{
+  std::mt19937 engine(seed);
+  std::uniform_int_distribution<int> any(low, high);
+  std::vector<Value> values(count);
+  std::generate(values.begin(), values.end(), [&] { return static_cast<Value>(any(engine)); });
+  return values;
+}
+
+/// @return CV_32FC1, other values with each call
+inline cv::Mat randomMap(int height, int width, float low, float high)
+{
+  static std::mt19937 engine(5);
+  std::uniform_real_distribution<float> distribution(low, high);
+  cv::Mat map(height, width, CV_32FC1);
+  std::generate(map.begin<float>(), map.end<float>(), [&] { return distribution(engine); });
+  return map;
+}
+
+/// The same as a row.
+inline std::vector<float> randomRow(int count, float low, float high)
+{
+  const cv::Mat row = randomMap(1, count, low, high);
+  return {row.begin<float>(), row.end<float>()};
+}
+
+}  // namespace testing
 }  // namespace light_field_depth
 
 #endif  // LIGHT_FIELD_DEPTH_TEST_SUPPORT_RANDOM_ROWS_H

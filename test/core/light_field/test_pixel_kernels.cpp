@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -31,6 +33,27 @@ TEST_P(PixelKernels, PixelsAreSplitAsInThePlainVersion)
   EXPECT_EQ(simd, plain);
   EXPECT_EQ(plain[ROW_STRIDE + 100], pixels[301]);
   EXPECT_EQ(plain[ROW_STRIDE + ROW_WIDTH], 9);
+}
+
+TEST_P(PixelKernels, ChangesOfColourEqualThePlainVersion)
+{
+  constexpr int width = 203;  // no multiple of any vector
+  std::mt19937 engine(3);
+  std::vector<std::uint8_t> pixels(6 * 256);
+  std::generate(pixels.begin(), pixels.end(), [&] { return static_cast<std::uint8_t>(engine()); });
+  for (const int channels : {1, 3})
+  {
+    const ColourChangeRow row{pixels.data() + 1, pixels.data() + 3 * 256, 256, channels, width};
+    std::vector<std::uint16_t> left(width);
+    std::vector<std::uint16_t> above(width);
+    std::vector<std::uint16_t> left_plain(width);
+    std::vector<std::uint16_t> above_plain(width);
+    colourChanges(row, left.data(), above.data());
+    colourChangesPlain(row, left_plain.data(), above_plain.data());
+    EXPECT_EQ(left, left_plain);
+    EXPECT_EQ(above, above_plain);
+    EXPECT_EQ(left[0] == left[1] && left[1] == left[2], false);
+  }
 }
 
 }  // namespace
