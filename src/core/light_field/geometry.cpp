@@ -12,7 +12,11 @@ float depthFromDisparity(float disparity_px, const Calibration& calibration)
   {
     return std::numeric_limits<float>::quiet_NaN();
   }
-  return static_cast<float>(calibration.focal_length_px * calibration.baseline_m / absolute_disparity);
+  const double depth_m = calibration.focal_length_px * calibration.baseline_m / absolute_disparity;
+  // What single precision cannot hold is as good as unknown, too.
+  const bool is_a_depth =
+      depth_m >= std::numeric_limits<float>::min() && depth_m <= std::numeric_limits<float>::max();
+  return is_a_depth ? static_cast<float>(depth_m) : std::numeric_limits<float>::quiet_NaN();
 }
 
 float disparityFromDepth(float depth_m, const Calibration& calibration)

@@ -38,6 +38,9 @@ TEST(Geometry, HasNoDepthAtOrBeyondInfinity)
   EXPECT_TRUE(std::isnan(depthFromDisparity(-3.0F, calibration)));
   EXPECT_TRUE(std::isnan(depthFromDisparity(std::nanf(""), calibration)));
   EXPECT_TRUE(std::isnan(depthFromDisparity(INFINITY, calibration)));
+  Calibration huge = calibration;
+  huge.baseline_m = 1e300;
+  EXPECT_TRUE(std::isnan(depthFromDisparity(3.0F, huge))) << "and none that single precision cannot hold";
   const cv::Mat depth = depthMap((cv::Mat_<float>(1, 2) << -2.0F, 3.0F), calibration);
   EXPECT_TRUE(std::isnan(depth.at<float>(0, 0)));
   EXPECT_FLOAT_EQ(depth.at<float>(0, 1), 10.0F);
