@@ -25,17 +25,17 @@ public:
     static constexpr double ODD[] = {0.0, 1e-300, 1e-12, 1e-9, 1e-8, 1e-6, 1e-3, 0.03, 0.5,  1.0,
                                      8.0, 100.0,  999.0, 1e4,  1e6,  1e7,  3e9,  1e19, 1e38, 1e300};
     constexpr int ODDITIES = sizeof(ODD) / sizeof(ODD[0]);
-    const int kind = below(8);
+    const int kind = below(32);
     const double sign = flag() ? -1.0 : 1.0;
-    if (kind < 4)
+    if (kind < 16)
     {
       return sign * below(9);
     }
-    if (kind < 6)
+    if (kind < 28)
     {
       return sign * (below(9) + byte() / 256.0);
     }
-    if (kind == 6)
+    if (kind < 31)
     {
       return sign * ODD[below(ODDITIES)];
     }

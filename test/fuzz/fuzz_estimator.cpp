@@ -63,18 +63,20 @@ cv::Mat image(Texture texture, const cv::Size& size, int type, int seed, int shi
 
 LightField lightField(ByteSource& source)
 {
-  static constexpr int TYPES[] = {CV_8UC3, CV_8UC1, CV_16UC1, CV_16UC3, CV_32FC1};
-  const int type = TYPES[source.below(5)];
-  const cv::Size size(15 + source.below(50), 15 + source.below(34));
+  static constexpr int TYPES[] = {CV_8UC3, CV_8UC1, CV_8UC3, CV_8UC1, CV_16UC1, CV_16UC3, CV_8UC3, CV_32FC1};
+  const int type = TYPES[source.below(8)];
+  const cv::Size size(15 + source.below(66), 15 + source.below(50));
   const auto texture = static_cast<Texture>(source.below(static_cast<int>(Texture::COUNT)));
-  const int count = 1 + source.below(9);
+  const int count = 1 + source.below(12);
   const int disparity = source.below(7) - 3;
   const bool on_grid = source.flag();
   std::vector<View> views;
   for (int i = 0; i < count; ++i)
   {
-    const int row = source.below(3);
-    const int column = source.below(4);
+    // One place for each view, mostly: others are refused at once.
+    const bool anywhere = source.below(32) == 31;
+    const int row = anywhere ? source.below(3) : i / 3;
+    const int column = anywhere ? source.below(4) : i % 3;
     View view = gridView(row, column, image(texture, size, type, i, 16 + disparity * column));
     if (!on_grid)
     {
@@ -87,8 +89,8 @@ LightField lightField(ByteSource& source)
   if (source.flag())
   {
     calibration = Calibration();
-    calibration->focal_length_px = source.number();
-    calibration->baseline_m = source.number();
+    calibration->focal_length_px = std::abs(source.number());
+    calibration->baseline_m = std::abs(source.number());
     calibration->principal_point_px = {source.number(), source.number()};
     calibration->disparity_offset_px = source.number();
   }

@@ -136,6 +136,13 @@ std::size_t middleView(const std::vector<View>& views)
   return static_cast<std::size_t>(nearest - views.begin());
 }
 
+/// Whether a view stands elsewhere than the reference, at which the steps begin.
+bool standsApart(const View& view)
+{
+  constexpr double SAME_PLACE_STEPS = 1e-9;
+  return std::max(std::abs(view.steps.x), std::abs(view.steps.y)) >= SAME_PLACE_STEPS;
+}
+
 std::size_t indexOf(const std::vector<View>& views, const GridPosition& position)
 {
   const auto found =
@@ -213,14 +220,12 @@ LightField makeLightField(std::vector<View> views, std::optional<GridPosition> r
   light_field.reference_index = reference ? indexOf(views, *reference) : middleView(views);
   const cv::Point2d reference_steps = views[light_field.reference_index].steps;
   const cv::Point2d reference_offset = views[light_field.reference_index].offset_px;
-  bool apart = false;
   for (View& view : views)
   {
     view.steps -= reference_steps;
     view.offset_px -= reference_offset;
-    apart = apart || std::abs(view.steps.x) + std::abs(view.steps.y) > 1e-9;
   }
-  if (!apart)
+  if (std::none_of(views.begin(), views.end(), standsApart))
   {
     throw InputError(
         "All views stand at the position of the reference view; disparity needs a baseline between "
@@ -263,6 +268,12 @@ LightField selectViews(const LightField& light_field, ViewSelection selection)
   {
     throw InputError("The view selection '" + toString(selection) + "' leaves only the reference view " +
                      toString(centre) + "; choose another selection or another reference view.");
+  }
+  if (std::none_of(selected.views.begin(), selected.views.end(), standsApart))
+  {
+    throw InputError("The view selection '" + toString(selection) +
+                     "' leaves only views at the place of the reference view " + toString(centre) +
+                     "; choose another selection, or check the positions of the views.");
   }
   return selected;
 }

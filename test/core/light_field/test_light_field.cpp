@@ -128,5 +128,19 @@ TEST(ToEightBit, ScalesAllViewsByOneFactor)
   EXPECT_NEAR(eight_bit.views[1].image.at<std::uint8_t>(3, 3), 500 * 255.0 / 1023, 0.51);
 }
 
+TEST(LightField, RefusesASelectionWhoseViewsStandAtOnePlace)
+{
+  std::vector<View> views;
+  for (const cv::Point& place : {cv::Point(0, 0), cv::Point(1, 0), cv::Point(0, 1)})
+  {
+    View view = gridView(place.y, place.x, cv::Mat(20, 20, CV_8UC1, cv::Scalar(7)));
+    view.steps = {1.0 * place.x, 0.0};
+    views.push_back(view);
+  }
+  const LightField light_field = makeLightField(views, GridPosition{0, 0});
+  EXPECT_EQ(selectViews(light_field, ViewSelection::Row).views.size(), 2U);
+  EXPECT_THROW(selectViews(light_field, ViewSelection::Column), InputError);
+}
+
 }  // namespace
 }  // namespace light_field_depth
