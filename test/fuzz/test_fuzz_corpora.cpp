@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <random>
+#include <string>
 #include <vector>
 
 #include "fuzz/harnesses.h"
@@ -32,6 +36,22 @@ TEST_P(FuzzCorpus, HoldsNoFinding)
     SCOPED_TRACE(input.filename().string());
     const std::string bytes = readFile(input);
     GetParam().run(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  }
+}
+
+/// As many as LIGHT_FIELD_DEPTH_RANDOM_INPUTS says (200 by default); a finding ends the program.
+TEST(RandomInputs, GiveTheEstimatorARightAnswerOrASentence)
+{
+  constexpr int USUAL = 200;
+  const char* const wanted = std::getenv("LIGHT_FIELD_DEPTH_RANDOM_INPUTS");
+  const int count = wanted == nullptr ? USUAL : std::atoi(wanted);
+  for (int seed = 0; seed < count; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(static_cast<std::uint32_t>(seed));
+    std::vector<std::uint8_t> bytes(130 + random() % 300);
+    std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random()); });
+    fuzzEstimator(bytes.data(), bytes.size());
   }
 }
 
