@@ -59,6 +59,7 @@ void orientationRow(const std::vector<float>& gx, const std::vector<float>& gy, 
 {
   /// cos 45 degrees.
   constexpr float DIAGONAL = 0.70710678F;
+  /// Against a division by zero where there is no gradient; far below that of a single grey level.
   constexpr float TINY = 1e-6F;
   const auto cube = [](float value) { return value * value * value; };
   for (std::size_t x = 0; x < gx.size(); ++x)

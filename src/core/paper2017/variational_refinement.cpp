@@ -17,6 +17,8 @@ namespace
 {
 /// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
+/// Of sqrt(s^2 + epsilon^2), which is |s| but for a rounded corner: epsilon is 0.001, as is usual (Brox et
+/// al. 2004).
 constexpr float PSI_EPSILON_SQUARED = 1e-6F;
 /// Added to the squared gradients that normalise the data term, in grey levels.
 constexpr float NORMALIZATION_SQUARED = 0.01F;

@@ -18,7 +18,7 @@ constexpr double NOISE_SIGMA_PX = 0.8;
 constexpr double SURROUND_SIGMA_PX = 4.0;
 /// Contrast of this many grey levels counts half: less is noise.
 constexpr float FLAT_CONTRAST = 2.0F;
-constexpr double FULL_SCALE = 255.0;
+constexpr double FULL_SCALE = 255.0;  // of 8 bits
 
 /// From the values of a view to those of 8 bits.
 struct Stretch

@@ -148,7 +148,9 @@ private:
     }
     const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
     std::nth_element(differences.begin(), middle, differences.end());
+    // Of a normal distribution: its standard deviation over the median of its magnitude.
     constexpr float deviations_of_median = 1.4826F;
+    // What rounding to whole levels adds: sqrt(1 / 12), the deviation of a number that is uniform over one.
     constexpr float rounding = 0.3F;
     return deviations_of_median * *middle + rounding;
   }

@@ -28,7 +28,7 @@ HWY_INLINE hn::Vec<Bytes> blend(hn::Vec<Bytes> a, hn::Vec<Bytes> b, int weight)
 #else
 HWY_INLINE hn::Vec<Bytes> blend(hn::Vec<Bytes> a, hn::Vec<Bytes> b, int weight)
 {
-  constexpr int SHIFT = 5;
+  constexpr int SHIFT = 5;  // log2 of SWEEP_FRACTIONS
   static_assert(SWEEP_FRACTIONS == 1 << SHIFT, "the sum is divided by a shift");
   // Even and odd bytes apart, so that nothing crosses lanes.
   const hn::Repartition<std::uint16_t, Bytes> words;
