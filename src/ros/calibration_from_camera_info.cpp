@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "light_field_depth/core/error.h"
+#include "ros/camera_info.h"
 
 namespace light_field_depth
 {
@@ -272,6 +273,27 @@ void warnOfStrayViews(const std::vector<GridPosition>& grid, std::size_t referen
   }
 }
 
+/// Positions in steps of the grid, where nobody knows how long a step is.
+std::vector<cv::Point2d> gridSteps(const std::vector<GridPosition>& grid, std::size_t reference)
+{
+  CalibrationParameters unit;
+  unit.baseline_x_m = 1.0;
+  return positionsFrom(grid, reference, unit);
+}
+
+/// An array of unknown size: disparity only.
+ArrayCalibration idealGrid(const std::vector<GridPosition>& grid, std::size_t reference,
+                           const std::string& warning)
+{
+  ArrayCalibration result;
+  for (const cv::Point2d& steps : gridSteps(grid, reference))
+  {
+    result.views.push_back({steps, {0.0, 0.0}});
+  }
+  result.warnings.push_back(warning);
+  return result;
+}
+
 void checkCounts(std::size_t views, std::size_t infos, std::size_t reference)
 {
   if (views < 2 || infos != views || reference >= views)
@@ -311,19 +333,26 @@ ArrayCalibration calibrationFromCameraInfo(const std::vector<GridPosition>& grid
                                            std::size_t reference, const CalibrationParameters& parameters)
 {
   checkCounts(grid.size(), infos.size(), reference);
+  if (std::all_of(infos.begin(), infos.end(), isUncalibrated))
+  {
+    const cv::Size size(static_cast<int>(infos[reference].width), static_cast<int>(infos[reference].height));
+    ArrayCalibration result = calibrationFromParameters(grid, reference, parameters, size);
+    if (!result.calibration)
+    {
+      result.warnings = {
+          "The CameraInfo of all " + std::to_string(infos.size()) +
+          " views has a P of zeros, so there is disparity but no depth; calibrate the cameras, "
+          "or set focal_length and baseline_x."};
+    }
+    return result;
+  }
   checkInfos(grid, infos, reference);
   std::vector<cv::Point2d> positions = positionsFrom(infos, reference);
-  const bool from_parameters = atOnePlace(positions);
-  if (from_parameters && !parameters.hasBaseline())
+  const bool one_place = atOnePlace(positions);
+  const bool no_baseline = one_place && !parameters.hasBaseline();
+  if (one_place)
   {
-    throw InputError(nameOf(grid[reference]) +
-                     " and all others: P[3] and P[7] of the CameraInfo place them at one "
-                     "point; publish P[3] = -P[0] * (metres to the right) and P[7] = -P[5] * (metres "
-                     "down), or set baseline_x and baseline_y.");
-  }
-  if (from_parameters)
-  {
-    positions = positionsFrom(grid, reference, parameters);
+    positions = no_baseline ? gridSteps(grid, reference) : positionsFrom(grid, reference, parameters);
   }
 
   ArrayCalibration result;
@@ -340,14 +369,24 @@ ArrayCalibration calibrationFromCameraInfo(const std::vector<GridPosition>& grid
   {
     result.views.push_back({steps[i], shifts[i] - disparity_offset_px * steps[i]});
   }
-  result.calibration.focal_length_px = infos[reference].P[FX];
-  result.calibration.principal_point_px = principalPointOf(infos[reference]);
-  result.calibration.baseline_m = baseline_m;
-  result.calibration.disparity_offset_px = disparity_offset_px;
+  if (no_baseline)
+  {
+    result.warnings.push_back(
+        nameOf(grid[reference]) +
+        " and all others: P[3] and P[7] of the CameraInfo place them at one point, so there is disparity but "
+        "no depth; publish P[3] = -P[0] * (metres to the right) and P[7] = -P[5] * (metres down), or set "
+        "baseline_x and baseline_y.");
+    return result;
+  }
+  result.calibration.emplace();
+  result.calibration->focal_length_px = infos[reference].P[FX];
+  result.calibration->principal_point_px = principalPointOf(infos[reference]);
+  result.calibration->baseline_m = baseline_m;
+  result.calibration->disparity_offset_px = disparity_offset_px;
 
   const std::vector<double> in_columns = neighbourSteps(grid, positions, ROWS);
   const double row_baseline_m = in_columns.empty() ? baseline_m : median(in_columns);
-  if (!from_parameters)
+  if (!one_place)
   {
     warnOfOtherBaseline(parameters.baseline_x_m, baseline_m, "baseline_x", result.warnings);
     warnOfOtherBaseline(parameters.baseline_y_m, row_baseline_m, "baseline_y", result.warnings);
@@ -360,23 +399,31 @@ ArrayCalibration calibrationFromParameters(const std::vector<GridPosition>& grid
                                            const CalibrationParameters& parameters,
                                            const cv::Size& image_size)
 {
+  checkCounts(grid.size(), grid.size(), reference);
+  if (parameters.focal_length_px <= 0.0 && !parameters.hasBaseline())
+  {
+    return idealGrid(
+        grid, reference,
+        "Neither CameraInfo nor the parameters say what the cameras are, so there is disparity but "
+        "no depth; set focal_length and baseline_x, or use the CameraInfo of the views.");
+  }
   if (parameters.focal_length_px <= 0.0 || !parameters.hasBaseline())
   {
     throw InputError("Without CameraInfo, focal_length (" + number(parameters.focal_length_px) +
                      " px) and baseline_x (" + number(parameters.baseline_x_m) +
-                     " m) must be positive; set both, or use the CameraInfo of the views.");
+                     " m) must both be positive; set both, or neither for disparity without depth.");
   }
-  checkCounts(grid.size(), grid.size(), reference);
   const std::vector<cv::Point2d> positions = positionsFrom(grid, reference, parameters);
   ArrayCalibration result;
-  result.calibration.focal_length_px = parameters.focal_length_px;
-  result.calibration.principal_point_px = parameters.principal_point_px.value_or(
+  result.calibration.emplace();
+  result.calibration->focal_length_px = parameters.focal_length_px;
+  result.calibration->principal_point_px = parameters.principal_point_px.value_or(
       cv::Point2d(0.5 * (image_size.width - 1), 0.5 * (image_size.height - 1)));
-  result.calibration.baseline_m = adjacentBaseline(grid, positions);
-  result.calibration.disparity_offset_px = parameters.disparity_offset_px;
+  result.calibration->baseline_m = adjacentBaseline(grid, positions);
+  result.calibration->disparity_offset_px = parameters.disparity_offset_px;
   for (const cv::Point2d& position : positions)
   {
-    result.views.push_back({position / result.calibration.baseline_m, {0.0, 0.0}});
+    result.views.push_back({position / result.calibration->baseline_m, {0.0, 0.0}});
   }
   return result;
 }

@@ -4,6 +4,7 @@
 
 #include <ros/console.h>
 #include <ros/time.h>
+#include <boost/make_shared.hpp>
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/ros/result_messages.h"
@@ -24,6 +25,18 @@ double millisecondsBetween(FrameReport::Time from, FrameReport::Time to)
 std::size_t queueCapacity(const NodeParameters& parameters)
 {
   return parameters.keep_all ? static_cast<std::size_t>(parameters.keep_all_limit) : 1;
+}
+
+/// The image itself, or a copy when the results have another frame than the cameras say.
+sensor_msgs::ImageConstPtr withHeader(const sensor_msgs::ImageConstPtr& image, const std_msgs::Header& header)
+{
+  if (image->header.frame_id == header.frame_id)
+  {
+    return image;
+  }
+  const auto copy = boost::make_shared<sensor_msgs::Image>(*image);
+  copy->header = header;
+  return copy;
 }
 
 void addTimes(const FrameReport& report, const PipelineResult& result, LightFieldDepthStats& stats)
@@ -134,9 +147,20 @@ void DepthNode::Implementation::updateSubscriptions()
 bool DepthNode::Implementation::reset(std_srvs::Empty::Request& /*request*/,
                                       std_srvs::Empty::Response& /*response*/)
 {
+  // Subscribing anew brings a CameraInfo that its publisher latched, and would not publish again.
+  const std::lock_guard<std::mutex> lock(subscription_mutex_);
+  if (subscribed_)
+  {
+    input_.unsubscribe();
+  }
   queue_.setHeldBack(parameters_.use_camera_info);
   input_.forget();
   queue_.clear();
+  forget_frames_ = true;
+  if (subscribed_ && !shutting_down_)
+  {
+    input_.subscribe();
+  }
   return true;
 }
 
@@ -224,8 +248,13 @@ void DepthNode::Implementation::process(const FrameSet& set, const Subscribers& 
   }
   const std::shared_ptr<const NodeSettings> settings = settings_.snapshot();
   report.method = toString(settings->pipeline.method);
+  if (forget_frames_.exchange(false))
+  {
+    pipeline_.forget();
+  }
   const auto products = std::make_shared<FrameProducts>(compute(light_field, *settings, header, subscribers));
-  products->info = infos[parameters_.array.reference];
+  products->info = assembler_.referenceInfo();
+  products->image = withHeader(set.images[parameters_.array.reference], header);
   report.computed = std::chrono::steady_clock::now();
   publication_.run([this, products, report] { publishSafely(*products, report); });
   if (const auto doubts = result_watch_.look(light_field, products->result.estimate, report.computed))
@@ -241,26 +270,49 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
   FrameProducts products;
   products.header = header;
   products.subscribers = subscribers;
-  products.calibration = *light_field.calibration;
+  products.calibration = light_field.calibration;
   products.min_confidence = settings.pipeline.min_confidence;
   products.keep_filled = settings.pipeline.keep_filled;
 
   ProductRequest request;
   request.depth = subscribers.depth;
   request.organized_cloud = subscribers.points2;
-  request.organized_cloud_allocator = [&](std::size_t /*count*/)
-  {
-    products.points2 = organized_clouds_.take();
-    return shapeOrganizedCloud(header, light_field.size(), *products.points2);
-  };
+  request.organized_cloud_allocator = leftOutWhenTooLarge(
+      [&](std::size_t /*count*/)
+      {
+        const sensor_msgs::PointCloud2Ptr cloud = organized_clouds_.take();
+        ColoredPoint* const points = shapeOrganizedCloud(header, light_field.size(), *cloud);
+        products.points2 = cloud;
+        return points;
+      });
   request.dense_cloud = subscribers.points_dense && settings.dense_cloud;
-  request.dense_cloud_allocator = [&](std::size_t count)
-  {
-    products.points_dense = dense_clouds_.take();
-    return shapeDenseCloud(header, count, *products.points_dense);
-  };
+  request.dense_cloud_allocator = leftOutWhenTooLarge(
+      [&](std::size_t count)
+      {
+        const sensor_msgs::PointCloud2Ptr cloud = dense_clouds_.take();
+        ColoredPoint* const points = shapeDenseCloud(header, count, *cloud);
+        products.points_dense = cloud;
+        return points;
+      });
   products.result = pipeline_.run(light_field, settings.pipeline, request);
   return products;
+}
+
+/// A cloud that cannot be sent costs itself, not the other results.
+PointAllocator DepthNode::Implementation::leftOutWhenTooLarge(PointAllocator allocator)
+{
+  return [this, allocator = std::move(allocator)](std::size_t count) -> ColoredPoint*
+  {
+    try
+    {
+      return allocator(count);
+    }
+    catch (const InputError& error)
+    {
+      diagnostics_.warn(error.what());
+      return nullptr;
+    }
+  };
 }
 
 void DepthNode::Implementation::publishSafely(const FrameProducts& products, FrameReport report)
@@ -293,7 +345,8 @@ LightFieldDepthStats DepthNode::Implementation::statsOf(const FrameProducts& pro
   stats.views_used = static_cast<std::uint32_t>(estimate.views_used);
   stats.disparity_min = estimate.range.min;
   stats.disparity_max = estimate.range.max;
-  stats.disparity_offset = static_cast<float>(products.calibration.disparity_offset_px);
+  stats.disparity_offset =
+      products.calibration ? static_cast<float>(products.calibration->disparity_offset_px) : 0.0F;
   addTimes(report, products.result, stats);
   addRecent(diagnostics_.recentFrames(), stats);
   stats.frames_published = diagnostics_.framesPublished();

@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_ROS_DEPTH_NODE_IMPLEMENTATION_H
 #define LIGHT_FIELD_DEPTH_SRC_ROS_DEPTH_NODE_IMPLEMENTATION_H
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -64,6 +65,7 @@ private:
   void process(const FrameSet& set, const Subscribers& subscribers);
   FrameProducts compute(const LightField& light_field, const NodeSettings& settings,
                         const std_msgs::Header& header, const Subscribers& subscribers);
+  PointAllocator leftOutWhenTooLarge(PointAllocator allocator);
   void publishSafely(const FrameProducts& products, FrameReport report);
   LightFieldDepthStats statsOf(const FrameProducts& products, const FrameReport& report) const;
 
@@ -83,6 +85,7 @@ private:
   bool shutting_down_ = false;
   std::unique_ptr<ResultPublisher> results_;
   BackgroundRunner publication_;
+  std::atomic<bool> forget_frames_{false};  ///< before the next one
 
   ros::ServiceServer reset_service_;
   ros::SteadyTimer watch_timer_;

@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_ROS_LIGHT_FIELD_ASSEMBLER_H
 #define LIGHT_FIELD_DEPTH_SRC_ROS_LIGHT_FIELD_ASSEMBLER_H
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,28 +24,45 @@ public:
   LightFieldAssembler(ViewArray array, CalibrationParameters parameters, bool use_camera_info);
 
   /// The images are shared with the messages where their encoding allows: the light field is to be used while
-  /// they live.
-  /// @param images one for each view of the array
+  /// they live. It has the views that have an image.
+  /// @param images one for each view of the array, null where a camera is missing, which is not the reference
   /// @param infos  one for each view, null where none is known; not looked at when use_camera_info is false
   /// @throw InputError
   LightField assemble(const std::vector<sensor_msgs::ImageConstPtr>& images,
                       const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
 
+  /// The camera of the reference image of the last light field: its CameraInfo without binning, region of
+  /// interest and baseline, or what the parameters say of it. Zeros when it is not calibrated.
+  sensor_msgs::CameraInfo referenceInfo() const;
+
   /// Whole sentences about the calibration in use; they change only when the calibration does.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
+  /// The CameraInfo of one view, as it came and as the calibration uses it.
+  struct KnownCamera
+  {
+    std::size_t view;
+    sensor_msgs::CameraInfo received;
+    sensor_msgs::CameraInfo delivered;
+  };
+
   void updateCalibration(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos,
                          const cv::Size& image_size);
-  void checkPresent(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
+  void calibrate(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
+  void warnOfRawImages();
+  void checkPresent(const std::vector<sensor_msgs::ImageConstPtr>& images,
+                    const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
   void checkSizes(const std::vector<sensor_msgs::ImageConstPtr>& images) const;
   bool isCurrent(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
 
   ViewArray array_;
   CalibrationParameters parameters_;
   bool use_camera_info_;
-  std::vector<sensor_msgs::CameraInfo> infos_;  ///< that calibration_ was made of
-  std::optional<ArrayCalibration> calibration_;
+  std::vector<KnownCamera> cameras_;        ///< that the calibration was made of
+  std::optional<Calibration> calibration_;  ///< absent when depth is unknown
+  std::vector<ViewGeometry> views_;         ///< of every view of the array; empty: to be found anew
+  cv::Size image_size_;                     ///< of the last reference image
   std::vector<std::string> warnings_;
 };
 

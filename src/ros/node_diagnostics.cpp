@@ -12,6 +12,10 @@ namespace
 {
 using diagnostic_msgs::DiagnosticStatus;
 
+/// A warning is part of the status for so long after it was last given: longer than the diagnostics' period,
+/// however many good frames come meanwhile.
+constexpr std::chrono::seconds WARNING_HOLDS(5);
+
 }  // namespace
 
 NodeDiagnostics::NodeDiagnostics(const ros::NodeHandle& node_handle,
@@ -30,7 +34,6 @@ void NodeDiagnostics::framePublished(double latency_ms)
   ++frames_published_;
   recent_.add(latency_ms, std::chrono::steady_clock::now());
   last_failure_.clear();
-  last_warning_.clear();
 }
 
 void NodeDiagnostics::frameFailed(const std::string& sentence)
@@ -48,6 +51,7 @@ void NodeDiagnostics::warn(const std::string& sentence)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_warning_ = sentence;
+  warned_at_ = std::chrono::steady_clock::now();
   if (isNews(sentence))
   {
     ROS_WARN_STREAM(sentence);
@@ -101,7 +105,7 @@ void NodeDiagnostics::reportInput(diagnostic_updater::DiagnosticStatusWrapper& s
   {
     status.summary(DiagnosticStatus::OK, "Nobody listens.");
   }
-  else if (!last_warning_.empty())
+  else if (!last_warning_.empty() && std::chrono::steady_clock::now() - warned_at_ < WARNING_HOLDS)
   {
     status.summary(DiagnosticStatus::WARN, last_warning_);
   }

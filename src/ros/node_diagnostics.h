@@ -54,7 +54,8 @@ private:
   std::uint64_t frames_failed_ = 0;
   RecentFrames recent_;
   std::string last_failure_;  ///< empty after a frame that went well
-  std::string last_warning_;  ///< likewise
+  std::string last_warning_;
+  std::chrono::steady_clock::time_point warned_at_;
   std::vector<std::string> doubts_;
   LogThrottle logged_;
 

@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/ros/calibration_from_camera_info.h"
 
 namespace light_field_depth
 {
@@ -53,8 +54,9 @@ struct Bounds
 };
 
 /// Writes d + d_inf where it is valid, NaN elsewhere; returns the bounds of what is valid.
-Bounds writeAbsoluteDisparity(const DisparityEstimate& estimate, float offset_px, float min_confidence,
-                              bool keep_filled, cv::Mat& absolute)
+/// @param lowest exclusive
+Bounds writeAbsoluteDisparity(const DisparityEstimate& estimate, float offset_px, float lowest,
+                              float min_confidence, bool keep_filled, cv::Mat& absolute)
 {
   Bounds bounds;
   for (int y = 0; y < absolute.rows; ++y)
@@ -68,7 +70,7 @@ Bounds writeAbsoluteDisparity(const DisparityEstimate& estimate, float offset_px
     {
       const float value = disparity[x] + offset_px;
       const bool seen = filled == nullptr || filled[x] == 0;
-      const bool valid = seen && confidence[x] >= min_confidence && std::isfinite(value) && value > 0.0F;
+      const bool valid = seen && confidence[x] >= min_confidence && std::isfinite(value) && value > lowest;
       out[x] = valid ? value : std::numeric_limits<float>::quiet_NaN();
       if (valid)
       {
@@ -81,10 +83,17 @@ Bounds writeAbsoluteDisparity(const DisparityEstimate& estimate, float offset_px
 }
 
 ColoredPoint* shapeCloud(const std_msgs::Header& header, std::uint32_t width, std::uint32_t height,
-                         bool is_dense, sensor_msgs::PointCloud2& cloud)
+                         bool is_dense, const char* remedy, sensor_msgs::PointCloud2& cloud)
 {
   using sensor_msgs::PointField;
-  const std::size_t bytes = sizeof(ColoredPoint) * static_cast<std::size_t>(width) * height;
+  const std::size_t points = static_cast<std::size_t>(width) * height;
+  const std::size_t bytes = sizeof(ColoredPoint) * points;
+  if (bytes > MAX_MESSAGE_BYTES)
+  {
+    throw InputError("The cloud has " + std::to_string(points) +
+                     " points, which are more bytes than ROS transports in a message (" +
+                     std::to_string(MAX_MESSAGE_BYTES) + "), so it is left out; " + remedy);
+  }
   cloud.header = header;
   cloud.width = width;
   cloud.height = height;
@@ -110,28 +119,46 @@ ColoredPoint* shapeCloud(const std_msgs::Header& header, std::uint32_t width, st
 
 stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
                                                 const DisparityEstimate& estimate,
-                                                const Calibration& calibration, float min_confidence,
-                                                bool keep_filled)
+                                                const std::optional<Calibration>& calibration,
+                                                float min_confidence, bool keep_filled)
 {
   auto message = boost::make_shared<stereo_msgs::DisparityImage>();
   const cv::Size size = estimate.disparity.size();
   message->header = header;
   shape(message->image, header, size, sensor_msgs::image_encodings::TYPE_32FC1, CV_32FC1);
-  message->f = static_cast<float>(calibration.focal_length_px);
-  message->T = static_cast<float>(calibration.baseline_m);
+  message->f = calibration ? static_cast<float>(calibration->focal_length_px) : 0.0F;
+  message->T = calibration ? static_cast<float>(calibration->baseline_m) : 0.0F;
   message->delta_d = DISPARITY_RESOLUTION_PX;
   message->valid_window.width = message->image.width;
   message->valid_window.height = message->image.height;
 
-  const auto offset_px = static_cast<float>(calibration.disparity_offset_px);
+  const float offset_px = calibration ? static_cast<float>(calibration->disparity_offset_px) : 0.0F;
+  // Infinity is where the disparity of parallel cameras is 0; nobody knows where without a calibration.
+  constexpr float NO_BOUND = std::numeric_limits<float>::lowest();
   cv::Mat absolute = pixelsOf(message->image, CV_32FC1);
-  const Bounds bounds = writeAbsoluteDisparity(estimate, offset_px, min_confidence, keep_filled, absolute);
+  const Bounds bounds = writeAbsoluteDisparity(estimate, offset_px, calibration ? 0.0F : NO_BOUND,
+                                               min_confidence, keep_filled, absolute);
   // The searched range counts where it is wider than what was found, but never down to infinite depth.
-  const float range_min = std::max(estimate.range.min + offset_px, DISPARITY_RESOLUTION_PX);
+  const float range_min =
+      std::max(estimate.range.min + offset_px, calibration ? DISPARITY_RESOLUTION_PX : NO_BOUND);
   message->min_disparity = std::min(bounds.min, range_min);
   message->max_disparity = std::max({bounds.max, estimate.range.max + offset_px, message->min_disparity});
   cv::patchNaNs(absolute, message->min_disparity - 1.0F);
   return message;
+}
+
+StereoPair stereoPair(const std_msgs::Header& header, const Calibration& calibration, const cv::Size& size)
+{
+  Calibration parallel = calibration;
+  parallel.disparity_offset_px = 0.0;
+  View view;
+  StereoPair pair;
+  pair.left = boost::make_shared<sensor_msgs::CameraInfo>(cameraInfoFor(view, parallel, size));
+  view.steps = {1.0, 0.0};
+  pair.right = boost::make_shared<sensor_msgs::CameraInfo>(cameraInfoFor(view, parallel, size));
+  pair.left->header = header;
+  pair.right->header = header;
+  return pair;
 }
 
 sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv::Mat& values)
@@ -159,19 +186,14 @@ ColoredPoint* shapeOrganizedCloud(const std_msgs::Header& header, const cv::Size
                                   sensor_msgs::PointCloud2& cloud)
 {
   return shapeCloud(header, static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height),
-                    false, cloud);
+                    false, "give smaller images.", cloud);
 }
 
 ColoredPoint* shapeDenseCloud(const std_msgs::Header& header, std::size_t points,
                               sensor_msgs::PointCloud2& cloud)
 {
-  if (points * sizeof(ColoredPoint) > MAX_MESSAGE_BYTES)
-  {
-    throw InputError("The dense cloud has " + std::to_string(points) +
-                     " points, which are more bytes than ROS transports in a message; raise "
-                     "dense_cloud_voxel_size_m or dense_cloud_min_confidence.");
-  }
-  return shapeCloud(header, static_cast<std::uint32_t>(points), 1, true, cloud);
+  return shapeCloud(header, static_cast<std::uint32_t>(points), 1, true,
+                    "raise dense_cloud_voxel_size_m or dense_cloud_min_confidence.", cloud);
 }
 
 }  // namespace light_field_depth

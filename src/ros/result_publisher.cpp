@@ -30,16 +30,6 @@ image_transport::Publisher advertiseImage(image_transport::ImageTransport& trans
   return transport.advertise(topic, QUEUE_SIZE, callback, callback);
 }
 
-/// The reference view's CameraInfo as that of the results: no baseline to itself.
-sensor_msgs::CameraInfoPtr referenceInfo(const std_msgs::Header& header, const sensor_msgs::CameraInfo& info)
-{
-  auto result = boost::make_shared<sensor_msgs::CameraInfo>(info);
-  result->header = header;
-  result->P[3] = 0.0;
-  result->P[7] = 0.0;
-  return result;
-}
-
 }  // namespace
 
 ResultPublisher::ResultPublisher(const ros::NodeHandle& private_node_handle,
@@ -54,6 +44,10 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& private_node_handle,
           advertise<sensor_msgs::PointCloud2>(private_node_handle, "points_dense", on_subscribers_changed)),
       camera_info_(
           advertise<sensor_msgs::CameraInfo>(private_node_handle, "camera_info", on_subscribers_changed)),
+      left_info_(advertise<sensor_msgs::CameraInfo>(private_node_handle, "left/camera_info",
+                                                    on_subscribers_changed)),
+      right_info_(advertise<sensor_msgs::CameraInfo>(private_node_handle, "right/camera_info",
+                                                     on_subscribers_changed)),
       stats_(advertise<LightFieldDepthStats>(private_node_handle, "stats", on_subscribers_changed))
 {
 }
@@ -68,27 +62,43 @@ Subscribers ResultPublisher::subscribers() const
   subscribers.points2 = points2_.getNumSubscribers() > 0;
   subscribers.points_dense = points_dense_.getNumSubscribers() > 0;
   subscribers.camera_info = camera_info_.getNumSubscribers() > 0;
+  subscribers.stereo_infos = left_info_.getNumSubscribers() > 0 || right_info_.getNumSubscribers() > 0;
+  subscribers.reference_image = left_image_.getNumSubscribers() > 0;
   subscribers.stats = stats_.getNumSubscribers() > 0;
   return subscribers;
 }
 
 void ResultPublisher::publish(const FrameProducts& products) const
 {
-  const auto& [header, subscribers, calibration, min_confidence, keep_filled, result, points2, points_dense,
-               info] = products;
-  if (subscribers.camera_info && info != nullptr)
+  const std_msgs::Header& header = products.header;
+  const Subscribers& subscribers = products.subscribers;
+  const PipelineResult& result = products.result;
+  if (subscribers.camera_info)
   {
-    camera_info_.publish(referenceInfo(header, *info));
+    const auto info = boost::make_shared<sensor_msgs::CameraInfo>(products.info);
+    info->header = header;
+    camera_info_.publish(info);
+  }
+  if (subscribers.reference_image)
+  {
+    left_image_.publish(products.image);
+  }
+  if (subscribers.stereo_infos && products.calibration)
+  {
+    const StereoPair pair = stereoPair(header, *products.calibration, result.estimate.disparity.size());
+    left_info_.publish(pair.left);
+    right_info_.publish(pair.right);
   }
   if (subscribers.disparity)
   {
-    disparity_.publish(disparityMessage(header, result.estimate, calibration, min_confidence, keep_filled));
+    disparity_.publish(disparityMessage(header, result.estimate, products.calibration,
+                                        products.min_confidence, products.keep_filled));
   }
   if (subscribers.disparity_color)
   {
     disparity_color_.publish(disparityColorMessage(header, result.estimate));
   }
-  if (subscribers.depth)
+  if (subscribers.depth && !result.depth.empty())
   {
     depth_.publish(floatImageMessage(header, result.depth));
   }
@@ -96,13 +106,13 @@ void ResultPublisher::publish(const FrameProducts& products) const
   {
     confidence_.publish(floatImageMessage(header, result.estimate.confidence));
   }
-  if (points2 != nullptr)
+  if (products.points2 != nullptr)
   {
-    points2_.publish(points2);
+    points2_.publish(products.points2);
   }
-  if (points_dense != nullptr)
+  if (products.points_dense != nullptr)
   {
-    points_dense_.publish(points_dense);
+    points_dense_.publish(products.points_dense);
   }
 }
 
@@ -120,6 +130,9 @@ void ResultPublisher::shutdown()
   points2_.shutdown();
   points_dense_.shutdown();
   camera_info_.shutdown();
+  left_image_.shutdown();
+  left_info_.shutdown();
+  right_info_.shutdown();
   stats_.shutdown();
 }
 

@@ -2,6 +2,7 @@
 #define LIGHT_FIELD_DEPTH_SRC_ROS_RESULT_PUBLISHER_H
 
 #include <functional>
+#include <optional>
 
 #include <image_transport/image_transport.h>
 #include <image_transport/publisher.h>
@@ -27,12 +28,14 @@ struct Subscribers
   bool points2 = false;
   bool points_dense = false;
   bool camera_info = false;
+  bool stereo_infos = false;
+  bool reference_image = false;
   bool stats = false;
 
   bool any() const
   {
     return disparity || disparity_color || depth || confidence || points2 || points_dense || camera_info ||
-           stats;
+           stereo_infos || reference_image || stats;
   }
 };
 
@@ -41,13 +44,14 @@ struct FrameProducts
 {
   std_msgs::Header header;
   Subscribers subscribers;
-  Calibration calibration;
+  std::optional<Calibration> calibration;
   float min_confidence = 0.0F;
   bool keep_filled = false;
   PipelineResult result;
-  sensor_msgs::PointCloud2Ptr points2;       ///< null when nobody listens to it
+  sensor_msgs::PointCloud2Ptr points2;       ///< null when nobody wants it, or it cannot be had
   sensor_msgs::PointCloud2Ptr points_dense;  ///< likewise
-  sensor_msgs::CameraInfoConstPtr info;      ///< of the reference view; may be null
+  sensor_msgs::CameraInfo info;              ///< of the reference view's image
+  sensor_msgs::ImageConstPtr image;          ///< of the reference view
 };
 
 /// The topics of the results. Thread safe, except shutdown().
@@ -62,7 +66,8 @@ public:
 
   Subscribers subscribers() const;
 
-  /// Publishes what the subscribers of this frame listen to, all but the stats.
+  /// Publishes what the subscribers of this frame listen to, all but the stats. Without a calibration there
+  /// is no depth, no cloud and no stereo pair.
   void publish(const FrameProducts& products) const;
 
   void publish(const LightFieldDepthStats& stats) const;
@@ -78,6 +83,9 @@ private:
   ros::Publisher points2_;
   ros::Publisher points_dense_;
   ros::Publisher camera_info_;
+  image_transport::Publisher left_image_;
+  ros::Publisher left_info_;
+  ros::Publisher right_info_;
   ros::Publisher stats_;
 };
 

@@ -59,10 +59,10 @@ TEST(CalibrationFromCameraInfo, IsTheInverseOfCameraInfoFor)
 {
   const Array array = regularArray();
   const ArrayCalibration result = calibrate(array);
-  EXPECT_DOUBLE_EQ(result.calibration.focal_length_px, 500.0);
-  EXPECT_NEAR(result.calibration.baseline_m, 0.05, 1e-12);
-  EXPECT_NEAR(result.calibration.disparity_offset_px, 2.5, 1e-9);
-  expectNear(result.calibration.principal_point_px, {320.5, 239.0}, 1e-9);
+  EXPECT_DOUBLE_EQ(result.calibration->focal_length_px, 500.0);
+  EXPECT_NEAR(result.calibration->baseline_m, 0.05, 1e-12);
+  EXPECT_NEAR(result.calibration->disparity_offset_px, 2.5, 1e-9);
+  expectNear(result.calibration->principal_point_px, {320.5, 239.0}, 1e-9);
   for (std::size_t i = 0; i < array.grid.size(); ++i)
   {
     expectNear(result.views[i].steps, cv::Point2d(array.grid[i].column - 1, array.grid[i].row - 1), 1e-9);
@@ -93,7 +93,7 @@ TEST(CalibrationFromCameraInfo, ExplainsWhereEveryViewSeesAPoint)
   array.infos[array.reference] = regularArray().infos[array.reference];
   const ArrayCalibration result = calibrate(array);
   const cv::Point3d point(0.3, -0.2, 2.0);
-  const double d = disparityFromDepth(static_cast<float>(point.z), result.calibration);
+  const double d = disparityFromDepth(static_cast<float>(point.z), *result.calibration);
   const cv::Point2d p = project(array.infos[array.reference], point.x, point.y, point.z);
   for (std::size_t i = 0; i < array.grid.size(); ++i)
   {
@@ -114,8 +114,8 @@ TEST(CalibrationFromCameraInfo, HasAPositiveOffsetForALightFieldInFocusAtADistan
     info.P[6] += -info.P[7] / FOCUS_M;
   }
   const ArrayCalibration result = calibrate(array);
-  EXPECT_NEAR(result.calibration.disparity_offset_px, 500.0 * 0.05 / FOCUS_M, 1e-9);
-  EXPECT_NEAR(depthFromDisparity(0.0F, result.calibration), FOCUS_M, 1e-5);
+  EXPECT_NEAR(result.calibration->disparity_offset_px, 500.0 * 0.05 / FOCUS_M, 1e-9);
+  EXPECT_NEAR(depthFromDisparity(0.0F, *result.calibration), FOCUS_M, 1e-5);
   const cv::Point2d in_reference = project(array.infos[4], 0.1, 0.1, FOCUS_M);
   expectNear(project(array.infos[0], 0.1, 0.1, FOCUS_M), in_reference, 1e-9);
 }
@@ -128,7 +128,7 @@ TEST(CalibrationFromCameraInfo, TakesRowsAndColumnsWithDifferentBaselines)
     info.P[7] *= 2.0;
   }
   const ArrayCalibration result = calibrate(array);
-  EXPECT_NEAR(result.calibration.baseline_m, 0.05, 1e-12);
+  EXPECT_NEAR(result.calibration->baseline_m, 0.05, 1e-12);
   expectNear(result.views[0].steps, {-1.0, -2.0}, 1e-9);
   EXPECT_TRUE(result.warnings.empty());
 }
@@ -141,7 +141,7 @@ TEST(CalibrationFromCameraInfo, WorksOnASingleColumnAndOnSparseGrids)
   column.infos = {full.infos[1], full.infos[7]};
   column.reference = 0;
   const ArrayCalibration result = calibrate(column);
-  EXPECT_NEAR(result.calibration.baseline_m, 0.05, 1e-12);
+  EXPECT_NEAR(result.calibration->baseline_m, 0.05, 1e-12);
   expectNear(result.views[1].steps, {0.0, 2.0}, 1e-9);
 }
 
@@ -155,9 +155,9 @@ TEST(CalibrationFromCameraInfo, TakesABaselineFromTheParametersOnlyWhereNoPHasOn
     info.P[3] = 0.0;
     info.P[7] = 0.0;
   }
-  EXPECT_NEAR(calibrate(monocular, parameters).calibration.baseline_m, 0.2, 1e-12);
+  EXPECT_NEAR(calibrate(monocular, parameters).calibration->baseline_m, 0.2, 1e-12);
   const ArrayCalibration with_both = calibrate(regularArray(), parameters);
-  EXPECT_NEAR(with_both.calibration.baseline_m, 0.05, 1e-12);
+  EXPECT_NEAR(with_both.calibration->baseline_m, 0.05, 1e-12);
   ASSERT_EQ(with_both.warnings.size(), 1U);
   EXPECT_NE(with_both.warnings[0].find("baseline_x is 0.2 m"), std::string::npos);
 }
@@ -190,16 +190,42 @@ TEST(CalibrationFromCameraInfo, NamesViewFieldAndRemedyOfWhatCannotBeUsed)
          {"View (0, 1)", "-P[3] / P[0]", "column", "from left to right"});
   expect([](Array& array) { std::swap(array.infos[0], array.infos[6]); },
          {"View (1, 0)", "-P[7] / P[5]", "row", "from top to bottom"});
-  expect(
-      [](Array& array)
-      {
-        for (sensor_msgs::CameraInfo& info : array.infos)
-        {
-          info.P[3] = info.P[7] = 0.0;
-        }
-      },
-      {"View (1, 1)", "P[3]", "P[7]", "baseline_x"});
   expect([](Array& array) { array.infos.pop_back(); }, {"9 views", "8 CameraInfo"});
+}
+
+TEST(CalibrationFromCameraInfo, GivesNoDepthButSaysSoWithoutABaseline)
+{
+  Array array = regularArray();
+  for (sensor_msgs::CameraInfo& info : array.infos)
+  {
+    info.P[3] = info.P[7] = 0.0;
+  }
+  const ArrayCalibration result = calibrate(array);
+  EXPECT_FALSE(result.calibration);
+  expectNear(result.views[8].steps, {1.0, 1.0}, 1e-12);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  for (const char* const part : {"View (1, 1)", "P[3]", "P[7]", "no depth", "baseline_x"})
+  {
+    EXPECT_NE(result.warnings[0].find(part), std::string::npos) << result.warnings[0];
+  }
+}
+
+TEST(CalibrationFromCameraInfo, TakesParametersWhereEveryPIsZero)
+{
+  Array array = regularArray();
+  for (sensor_msgs::CameraInfo& info : array.infos)
+  {
+    info.P.fill(0.0);
+  }
+  const ArrayCalibration without = calibrate(array);
+  EXPECT_FALSE(without.calibration);
+  expectNear(without.views[0].steps, {-1.0, -1.0}, 1e-12);
+  ASSERT_EQ(without.warnings.size(), 1U);
+  EXPECT_NE(without.warnings[0].find("P of zeros"), std::string::npos);
+  CalibrationParameters parameters;
+  parameters.focal_length_px = 300.0;
+  parameters.baseline_x_m = 0.1;
+  EXPECT_DOUBLE_EQ(calibrate(array, parameters).calibration->focal_length_px, 300.0);
 }
 
 TEST(CalibrationFromParameters, MakesAnIdealGrid)
@@ -211,14 +237,18 @@ TEST(CalibrationFromParameters, MakesAnIdealGrid)
   parameters.disparity_offset_px = 1.0;
   const ArrayCalibration result =
       calibrationFromParameters(testing::gridPositions(3, 3), 4, parameters, SIZE);
-  expectNear(result.calibration.principal_point_px, {319.5, 239.5}, 1e-12);
+  expectNear(result.calibration->principal_point_px, {319.5, 239.5}, 1e-12);
   expectNear(result.views[8].steps, {1.0, 0.5}, 1e-12);
-  EXPECT_DOUBLE_EQ(result.calibration.disparity_offset_px, 1.0);
+  EXPECT_DOUBLE_EQ(result.calibration->disparity_offset_px, 1.0);
 }
 
 TEST(CalibrationFromParameters, RefusesWhatIsMissingOrNotFinite)
 {
   CalibrationParameters parameters;
+  const ArrayCalibration nothing_given =
+      calibrationFromParameters(testing::gridPositions(1, 2), 0, parameters, SIZE);
+  EXPECT_FALSE(nothing_given.calibration) << "disparity only";
+  EXPECT_EQ(nothing_given.warnings.size(), 1U);
   parameters.focal_length_px = 300.0;
   expectSentence([&] { calibrationFromParameters(testing::gridPositions(1, 2), 0, parameters, SIZE); },
                  {"focal_length", "baseline_x"});

@@ -1,5 +1,6 @@
 #include "array_fixture.h"
 
+#include <algorithm>
 #include <thread>
 #include <utility>
 
@@ -52,15 +53,17 @@ SyntheticLightField syntheticArray(std::vector<GridPosition> positions, const cv
   return renderScene(standardScene(size), settings);
 }
 
-ArrayPublisher::ArrayPublisher(ros::NodeHandle node_handle, const LightField& light_field)
+ArrayPublisher::ArrayPublisher(ros::NodeHandle node_handle, const LightField& light_field, bool latch_infos,
+                               const TopicPatterns& patterns)
 {
   std_msgs::Header header;
   header.frame_id = "array_optical_frame";
-  messages_ = viewMessages(light_field, *light_field.calibration, header);
+  messages_ = viewMessages(light_field, *light_field.calibration, header, patterns);
   for (const ViewMessages& view : messages_)
   {
     image_publishers_.push_back(node_handle.advertise<sensor_msgs::Image>(view.image_topic, 20));
-    info_publishers_.push_back(node_handle.advertise<sensor_msgs::CameraInfo>(view.camera_info_topic, 20));
+    info_publishers_.push_back(
+        node_handle.advertise<sensor_msgs::CameraInfo>(view.camera_info_topic, 20, latch_infos));
   }
 }
 
@@ -111,6 +114,24 @@ std::size_t ArrayPublisher::topicsHeard() const
   return heard;
 }
 
+bool diagnosed(const Listener<diagnostic_msgs::DiagnosticArray>& listener,
+               const std::vector<std::string>& words)
+{
+  for (const auto& array : listener.all())
+  {
+    for (const auto& status : array->status)
+    {
+      if (std::all_of(words.begin(), words.end(),
+                      [&](const std::string& word)
+                      { return status.message.find(word) != std::string::npos; }))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 void ArrayFixture::SetUp()
 {
   const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
@@ -131,9 +152,8 @@ void ArrayFixture::TearDown()
   spinner_->stop();
 }
 
-void ArrayFixture::startNode(const LightField& light_field)
+void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns& patterns)
 {
-  const TopicPatterns patterns;
   XmlRpc::XmlRpcValue array;
   for (std::size_t i = 0; i < light_field.views.size(); ++i)
   {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
@@ -28,7 +29,9 @@ SyntheticLightField syntheticArray(std::vector<GridPosition> positions, const cv
 class ArrayPublisher
 {
 public:
-  ArrayPublisher(ros::NodeHandle node_handle, const LightField& light_field);
+  /// @param latch_infos whether CameraInfos are latched
+  ArrayPublisher(ros::NodeHandle node_handle, const LightField& light_field, bool latch_infos = false,
+                 const TopicPatterns& patterns = {});
 
   /// Publishes all views with one stamp.
   void publish(const ros::Time& stamp);
@@ -94,6 +97,10 @@ private:
   ros::Subscriber subscriber_;
 };
 
+/// Whether a diagnostic status has all the words in its summary.
+bool diagnosed(const Listener<diagnostic_msgs::DiagnosticArray>& listener,
+               const std::vector<std::string>& words);
+
 /// A namespace of its own for each test, and the node under test inside it. The description of the array goes
 /// through the parameter server, as everywhere.
 class ArrayFixture : public ::testing::Test
@@ -103,7 +110,7 @@ protected:
   void TearDown() override;
 
   /// Starts the node on an array: the parameter `array` lists the given views.
-  void startNode(const LightField& light_field);
+  void startNode(const LightField& light_field, const TopicPatterns& patterns = {});
 
   template <class Value>
   void setParameter(const std::string& name, const Value& value)

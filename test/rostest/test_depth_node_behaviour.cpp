@@ -20,25 +20,6 @@ using StatsListener = Listener<LightFieldDepthStats>;
 
 const cv::Size SMALL(64, 48);
 
-/// Whether a diagnostic status of the node has all the words in its summary.
-bool diagnosed(const Listener<diagnostic_msgs::DiagnosticArray>& listener,
-               const std::vector<std::string>& words)
-{
-  for (const auto& array : listener.all())
-  {
-    for (const auto& status : array->status)
-    {
-      if (std::all_of(words.begin(), words.end(),
-                      [&](const std::string& word)
-                      { return status.message.find(word) != std::string::npos; }))
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 template <class Value>
 void add(std::vector<Value>& values, const std::string& name, const decltype(Value::value)& value)
 {
@@ -312,7 +293,8 @@ TEST_F(DepthNodeTest, RefusesParametersBeforeItAdvertisesAnything)
   EXPECT_THROW(startNode(scene.light_field), InputError);
   setParameter("image_transport", std::string("raw"));
   setParameter("use_camera_info", false);
-  EXPECT_THROW(startNode(scene.light_field), InputError) << "no focal length";
+  setParameter("focal_length", 80.0);
+  EXPECT_THROW(startNode(scene.light_field), InputError) << "no baseline";
   const ros::V_string advertised = []
   {
     ros::V_string topics;

@@ -39,7 +39,8 @@ TEST(DepthNodeProgram, SaysOnTheConsoleWhyItEnds)
 {
   expectRefusal("transport", "_image_transport:=telegraph",
                 "'/transport/image_transport' is 'telegraph'; install");
-  expectRefusal("no_calibration", "_use_camera_info:=false", "Without CameraInfo, focal_length");
+  expectRefusal("no_calibration", "_use_camera_info:=false _focal_length:=500",
+                "Without CameraInfo, focal_length");
   expectRefusal("array", "_array:=3", "'array' is not");
   expectRefusal("queue", "_queue_size:=0", "'/queue/queue_size' is 0; give a value from 1");
 }

@@ -104,6 +104,10 @@ public:
   PipelineResult run(const LightField& light_field, const PipelineOptions& options,
                      const ProductRequest& request);
 
+  /// The next run starts as the first one does: nothing of earlier frames helps it (see
+  /// MultiviewOptions::temporal). To be called by the thread that runs.
+  void forget();
+
   /// Makes the run in hand and every later one throw Cancelled soon. Thread safe.
   void cancel() { cancellation_.cancel(); }
 

@@ -31,7 +31,7 @@ static_assert(sizeof(ColoredPoint) == 16, "the clouds are written straight into 
 
 /// Room for the points of a cloud in memory of the caller's, such as the buffer of a message. Called once, on
 /// the calling thread, when the number of points is known; what it throws comes out of the function that
-/// makes the cloud.
+/// makes the cloud. Where it returns nullptr, the cloud is left out.
 using PointAllocator = std::function<ColoredPoint*(std::size_t count)>;
 
 /// The depth of the reference view as an organised cloud (paper, 3.3.1).

@@ -21,7 +21,8 @@ struct CalibrationParameters
   double baseline_x_m = 0.0;
   double baseline_y_m = 0.0;  ///< see baseline_x_m
 
-  /// The following are used only where no CameraInfo is used. Focal length in pixels; 0: not given.
+  /// The following are used only where no CameraInfo is used, or all have a P of zeros. Focal length in
+  /// pixels; 0: not given.
   double focal_length_px = 0.0;
   /// Principal point of the reference view in pixels; the middle of the image when absent.
   std::optional<cv::Point2d> principal_point_px;
@@ -44,7 +45,9 @@ struct ViewGeometry
 /// Calibration of a whole array: the pinhole model and where each view stands.
 struct ArrayCalibration
 {
-  Calibration calibration;            ///< of the reference view
+  /// Absent where nothing says how large the array is or how far its cameras see: there is disparity then,
+  /// but no depth, and a warning that says so.
+  std::optional<Calibration> calibration;
   std::vector<ViewGeometry> views;    ///< in the order of the grid positions that were given
   std::vector<std::string> warnings;  ///< whole sentences: what can be used but should be looked at
 };
@@ -66,20 +69,23 @@ struct ArrayCalibration
 /// T is the median distance of neighbours in a row (in a column where no row has two views), d_inf the least
 /// squares fit over all views.
 ///
+/// Where every P is zero, the cameras are not calibrated: the parameters take their place. Where no P has a
+/// baseline and the parameters have none, the views count as standing on an ideal grid of unknown size.
+///
 /// @param grid    grid position of each view
-/// @param infos   CameraInfo of each view
+/// @param infos   CameraInfo of each view, of the image as it comes: binning and region of interest applied
 /// @param reference index of the reference view
 /// @param parameters the baseline is taken from them where no P has one
 /// @throw InputError that names view, field, value and remedy: P[0] or P[5] not positive or not finite, focal
-///   lengths that differ, image sizes that differ, positions against the order of rows and columns, all views
-///   at one place
+///   lengths that differ, image sizes that differ, positions against the order of rows and columns
 ArrayCalibration calibrationFromCameraInfo(const std::vector<GridPosition>& grid,
                                            const std::vector<sensor_msgs::CameraInfo>& infos,
                                            std::size_t reference,
                                            const CalibrationParameters& parameters = {});
 
-/// The same from parameters alone, on an ideal grid.
-/// @throw InputError if the focal length or the baseline is not given
+/// The same from parameters alone, on an ideal grid; no calibration if neither focal length nor baseline is
+/// given.
+/// @throw InputError if only one of them is given
 ArrayCalibration calibrationFromParameters(const std::vector<GridPosition>& grid, std::size_t reference,
                                            const CalibrationParameters& parameters,
                                            const cv::Size& image_size);

@@ -2,7 +2,9 @@
 #define LIGHT_FIELD_DEPTH_ROS_RESULT_MESSAGES_H
 
 #include <cstddef>
+#include <optional>
 
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
@@ -20,11 +22,22 @@ namespace light_field_depth
 /// The disparity of the reference view for any consumer of stereo disparities: the image holds d + d_inf, in
 /// pixels between adjacent views, so that Z = f T / value; min_disparity and max_disparity bound the valid
 /// values. Where the confidence is too low, or what is filled is not kept, or a point would lie at infinity
-/// or behind the camera, the value is min_disparity - 1. The valid window is the whole image.
+/// or behind the camera, the value is min_disparity - 1. The valid window is the whole image. Without a
+/// calibration f and T are 0, and the image holds d.
 stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
                                                 const DisparityEstimate& estimate,
-                                                const Calibration& calibration, float min_confidence,
-                                                bool keep_filled);
+                                                const std::optional<Calibration>& calibration,
+                                                float min_confidence, bool keep_filled);
+
+/// The two cameras that a stereo pair with the same disparity has: parallel, with the principal point of the
+/// reference view in both, the right one baseline_m to the right of the left one. For consumers that take two
+/// CameraInfos with a disparity, and would subtract a difference of principal points from it.
+struct StereoPair
+{
+  sensor_msgs::CameraInfoPtr left;
+  sensor_msgs::CameraInfoPtr right;
+};
+StereoPair stereoPair(const std_msgs::Header& header, const Calibration& calibration, const cv::Size& size);
 
 /// A 32FC1 image. @param values CV_32FC1
 sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv::Mat& values);
@@ -36,6 +49,7 @@ sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header,
 
 /// Makes a message of any content a cloud of x y z rgb in 16 bytes a point; organised, with NaN, is_dense
 /// false. @return where its points go, size.area() of them, row-major
+/// @throw InputError if the message would be larger than ROS transports (1e9 bytes)
 ColoredPoint* shapeOrganizedCloud(const std_msgs::Header& header, const cv::Size& size,
                                   sensor_msgs::PointCloud2& cloud);
 

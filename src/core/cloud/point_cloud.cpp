@@ -197,6 +197,10 @@ void writeEveryPoint(const TrustedPixels& pixels, const std::vector<Chunk>& chun
   forEachChunk([&](std::size_t i) { begins[i + 1] = pixels.count(chunks[i]); });
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
   ColoredPoint* const points = room(begins.back());
+  if (points == nullptr)
+  {
+    return;
+  }
   forEachChunk([&](std::size_t i) { pixels.write(chunks[i], points + begins[i]); });
 }
 

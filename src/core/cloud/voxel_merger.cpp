@@ -185,6 +185,10 @@ void VoxelMerger::merge(ThreadPool& pool, const PointAllocator& room) const
     begins[share + 1] = begins[share] + merged[share].sums().size();
   }
   ColoredPoint* const points = room(begins.back());
+  if (points == nullptr)
+  {
+    return;
+  }
   pool.parallelFor(0, SHARES, 1,
                    [&](int first, int /*last*/)
                    {

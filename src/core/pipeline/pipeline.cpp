@@ -117,6 +117,12 @@ Pipeline::Pipeline(int threads) : pool_(threads)
 
 Pipeline::~Pipeline() = default;
 
+void Pipeline::forget()
+{
+  multiview_.reset();
+  paper2017_.reset();
+}
+
 Estimator& Pipeline::estimatorFor(const PipelineOptions& options)
 {
   if (options.method == Method::Multiview)
@@ -156,8 +162,12 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
   {
     const StageTimer timer(context, "cloud");
     const std::size_t count = estimate.disparity.total();
-    unprojectReference(light_field, estimate.disparity, trust, options.min_confidence, pool_,
-                       allocatorOr(request.organized_cloud_allocator, result.organized_cloud)(count));
+    ColoredPoint* const points =
+        allocatorOr(request.organized_cloud_allocator, result.organized_cloud)(count);
+    if (points != nullptr)
+    {
+      unprojectReference(light_field, estimate.disparity, trust, options.min_confidence, pool_, points);
+    }
   }
   if (request.dense_cloud)
   {
