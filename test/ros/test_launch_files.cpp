@@ -1,15 +1,21 @@
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "support/program.h"
+#include "support/temporary_folder.h"
 
+namespace light_field_depth
+{
 namespace
 {
-using light_field_depth::testing::Outcome;
-using light_field_depth::testing::runProgram;
+using testing::Outcome;
+using testing::runProgram;
 
 /// What has to be said of a launch file, and a node that it then starts.
 struct Launch
@@ -21,10 +27,11 @@ struct Launch
 TEST(LaunchFiles, AllLoad)
 {
   const std::map<std::string, Launch> launches = {
-      {"depth.launch", {"array:=grid_3x3 rviz:=true method:=paper2017 views:=cross", "/rviz"}},
+      {"depth.launch",
+       {"array:=grid_3x3 rviz:=true method:=paper2017 views:=cross", "/light_field_depth/rviz"}},
       {"play.launch", {"input:=folder manager:=/other", "/light_field_player"}},
       {"replay.launch", {"bag:=file.bag loop:=true use_sim_time:=false", "/rosbag_play"}},
-      {"demo.launch", {"bag:=file.bag", "/optical_frame_broadcaster"}},
+      {"demo.launch", {"bag:=file.bag", "/upright_frame_broadcaster"}},
   };
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator("launch"))
@@ -41,13 +48,76 @@ TEST(LaunchFiles, AllLoad)
   EXPECT_EQ(files, launches.size());
 }
 
-TEST(LaunchFiles, StartAManagerOnlyWhenNoneIsNamed)
+std::string parametersOf(const std::string& launch)
 {
-  EXPECT_NE(runProgram("roslaunch --nodes launch/depth.launch").output.find("/light_field_manager"),
-            std::string::npos);
-  EXPECT_EQ(
-      runProgram("roslaunch --nodes launch/depth.launch manager:=/mine").output.find("/light_field_manager"),
-      std::string::npos);
+  return runProgram("roslaunch --dump-params launch/" + launch).output;
+}
+
+bool has(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/// The arguments of a launch file by their names, each with its line.
+std::map<std::string, std::string> argumentsOf(const std::string& file)
+{
+  std::map<std::string, std::string> arguments;
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::string begin = "<arg name=\"";
+    const std::size_t at = line.find(begin);
+    if (at != std::string::npos && !has(line, " value="))
+    {
+      const std::size_t name = at + begin.size();
+      arguments[line.substr(name, line.find('"', name) - name)] = line;
+    }
+  }
+  return arguments;
+}
+
+TEST(LaunchFiles, StartAManagerOfTheirOwnNameOnlyWhenNoneIsNamed)
+{
+  EXPECT_TRUE(has(runProgram("roslaunch --nodes launch/depth.launch").output, "/light_field_depth_manager"));
+  EXPECT_TRUE(has(runProgram("roslaunch --nodes launch/depth.launch name:=front").output, "/front_manager"));
+  EXPECT_FALSE(has(runProgram("roslaunch --nodes launch/depth.launch manager:=/mine").output, "_manager"));
+}
+
+TEST(LaunchFiles, HaveTheSameArguments)
+{
+  const std::set<std::string> differs = {"rviz", "rviz_config", "defaults"};
+  const auto expected = argumentsOf("launch/depth.launch");
+  EXPECT_GT(expected.size(), 20U);
+  for (const char* const file : {"launch/play.launch", "launch/replay.launch", "launch/demo.launch"})
+  {
+    auto arguments = argumentsOf(file);
+    for (const auto& [name, line] : expected)
+    {
+      ASSERT_EQ(arguments.count(name), 1U) << file << " lacks " << name;
+      if (differs.count(name) == 0)
+      {
+        EXPECT_EQ(arguments[name], line) << file;
+      }
+    }
+  }
+}
+
+TEST(LaunchFiles, PassTheirArgumentsOn)
+{
+  const std::string arguments =
+      " sync_tolerance:=0.25 threads:=3 image_transport:=compressed preset:=fast use_camera_info:=false"
+      " frame_id:=camera min_confidence:=0.5 queue_size:=9 name:=front";
+  for (const char* const launch : {"depth.launch", "play.launch input:=folder", "replay.launch bag:=file.bag",
+                                   "demo.launch bag:=file.bag"})
+  {
+    const std::string parameters = parametersOf(launch + arguments);
+    for (const char* const parameter :
+         {"sync_tolerance: 0.25", "threads: 3", "image_transport: compressed", "multiview_preset: fast",
+          "use_camera_info: false", "frame_id: camera", "min_confidence: 0.5", "queue_size: 9"})
+    {
+      EXPECT_TRUE(has(parameters, std::string("/front/") + parameter)) << launch << " " << parameter;
+    }
+  }
 }
 
 /// What roslaunch would start a node with.
@@ -60,38 +130,55 @@ TEST(LaunchFiles, TakePathsWithSpacesAndApostrophes)
 {
   // roslaunch joins the words with single spaces, so a path that it had split would have lost one.
   const std::string path = "/tmp/it's  my/views";
-  const std::string quoted = light_field_depth::testing::quoted(path);
+  const std::string quoted = testing::quoted(path);
   const auto expect = [&](const std::string& command)
   { EXPECT_NE(command.find(" " + path + " "), std::string::npos) << command; };
   expect(commandOf("/light_field_player", "play.launch input:=" + quoted));
   expect(commandOf("/rosbag_play", "replay.launch bag:=" + quoted));
   expect(commandOf("/rosbag_play", "demo.launch bag:=" + quoted));
-  expect(commandOf("/rviz", "depth.launch rviz:=true rviz_config:=" + quoted));
+  expect(commandOf("/light_field_depth/rviz", "depth.launch rviz:=true rviz_config:=" + quoted));
 }
 
-TEST(LaunchFiles, HandThePresetToTheNode)
+TEST(LaunchFiles, LeaveToTheArraysFileWhatIsNotGiven)
 {
-  const std::string parameter = "/light_field_depth/multiview_preset: ";
-  for (const std::string launch :
-       {"depth.launch", "play.launch input:=x", "replay.launch bag:=x", "demo.launch bag:=x"})
+  const testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "mine.yaml").string();
+  std::ofstream(file) << "array: {rows: 3, columns: 3}\nsync_tolerance: 0.125\nmultiview_temporal: false\n"
+                         "keep_all: false\ndense_cloud_voxel_size_m: 0.5\n";
+  for (const char* const launch :
+       {"depth.launch", "replay.launch bag:=file.bag", "demo.launch bag:=file.bag"})
   {
-    const std::string command = "roslaunch --dump-params launch/" + launch;
-    EXPECT_NE(runProgram(command + " preset:=realtime").output.find(parameter + "realtime"),
-              std::string::npos)
-        << launch;
-    EXPECT_EQ(runProgram(command).output.find(parameter), std::string::npos)
-        << launch << ": the default is the node's";
+    const std::string parameters = parametersOf(launch + (" array_file:=" + file));
+    EXPECT_TRUE(has(parameters, "/sync_tolerance: 0.125")) << parameters;
+    EXPECT_TRUE(has(parameters, "/multiview_temporal: false")) << parameters;
+    EXPECT_TRUE(has(parameters, "/keep_all: false")) << parameters;
+    EXPECT_TRUE(has(parameters, "/dense_cloud_voxel_size_m: 0.5")) << parameters;
+    EXPECT_TRUE(has(parameters, "/array/rows: 3")) << parameters;
+    EXPECT_FALSE(has(parameters, "multiview_preset")) << launch << ": the default is the node's";
+    EXPECT_TRUE(
+        has(parametersOf(launch + (" temporal:=true array_file:=" + file)), "/multiview_temporal: true"));
   }
 }
 
 TEST(LaunchFiles, AnArrayIsAStreamAndABagASeriesOfFrames)
 {
   const std::string on = "/light_field_depth/multiview_temporal: true";
-  EXPECT_NE(runProgram("roslaunch --dump-params launch/depth.launch").output.find(on), std::string::npos);
-  EXPECT_EQ(runProgram("roslaunch --dump-params launch/depth.launch temporal:=false").output.find(on),
-            std::string::npos);
-  EXPECT_EQ(runProgram("roslaunch --dump-params launch/replay.launch bag:=file.bag").output.find(on),
-            std::string::npos);
+  EXPECT_TRUE(has(parametersOf("depth.launch"), on));
+  const std::string replay = parametersOf("replay.launch bag:=file.bag");
+  EXPECT_FALSE(has(replay, on));
+  EXPECT_TRUE(has(replay, "/light_field_depth/keep_all: true"));
+}
+
+TEST(LaunchFiles, ShowInRVizWhatTheNodeOfAnyNamePublishes)
+{
+  std::ifstream file("config/rviz/light_field.rviz");
+  const std::string config((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  EXPECT_FALSE(has(config, "Topic: /")) << "topics are relative to the node's namespace";
+  EXPECT_TRUE(has(commandOf("/front/rviz", "depth.launch rviz:=true name:=front"), "-f front_upright"));
+  const std::string known =
+      runProgram("roslaunch --nodes launch/depth.launch rviz:=true fixed_frame:=map").output;
+  EXPECT_FALSE(has(known, "upright_frame_broadcaster")) << "tf knows it";
 }
 
 }  // namespace
+}  // namespace light_field_depth
