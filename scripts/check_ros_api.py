@@ -36,7 +36,7 @@ def source_of(folder):
 def names_in_code():
     """The private names that the node advertises, and those of its parameters."""
     code = source_of('src/ros')
-    advertised = re.findall(r'\badvertise(?:Image|Service|<[\w:]+>)\( ?(?:\w+, )?"(\w+)"', code)
+    advertised = re.findall(r'\badvertise(?:Image|Service|<[\w:]+>)\( ?(?:\w+, )?"([\w/]+)"', code)
     parameters = re.findall(r'\b(?:read|readInRange|getParam|param)(?:<\w+>)?\( ?(?:\w+, )?"(\w+)"', code)
     return {'~' + name for name in advertised}, {'~' + name for name in parameters}
 

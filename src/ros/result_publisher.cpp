@@ -44,6 +44,7 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& private_node_handle,
           advertise<sensor_msgs::PointCloud2>(private_node_handle, "points_dense", on_subscribers_changed)),
       camera_info_(
           advertise<sensor_msgs::CameraInfo>(private_node_handle, "camera_info", on_subscribers_changed)),
+      left_image_(advertiseImage(image_transport_, "left/image_rect_color", on_subscribers_changed)),
       left_info_(advertise<sensor_msgs::CameraInfo>(private_node_handle, "left/camera_info",
                                                     on_subscribers_changed)),
       right_info_(advertise<sensor_msgs::CameraInfo>(private_node_handle, "right/camera_info",
