@@ -66,6 +66,7 @@ void addRecent(const RecentFrames::Summary& recent, LightFieldDepthStats& stats)
 void addInputCounts(const ViewSynchronizerStatistics& input, LightFieldDepthStats& stats)
 {
   stats.sets_complete = input.sets_complete;
+  stats.sets_partial = input.sets_partial;
   stats.sets_incomplete = input.sets_dropped;
   stats.time_jumps = input.time_jumps;
   for (const ViewCounts& counts : input.views)
@@ -87,8 +88,13 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
           node_handle, private_node_handle, parameters_,
           [this](FrameSet set) { queue_.push(std::move(set)); }, [this] { queue_.setHeldBack(false); }),
       assembler_(parameters_.array, parameters_.calibration, parameters_.use_camera_info),
-      pipeline_(parameters_.threads), result_watch_(parameters_.check_order)
+      pipeline_(parameters_.threads), result_watch_(parameters_.check_order),
+      health_(parameters_.array, parameters_.queue_size, parameters_.health)
 {
+  for (const std::string& warning : parameters_.warnings)
+  {
+    diagnostics_.warn(warning);
+  }
   queue_.setHeldBack(parameters_.use_camera_info);
   {
     // A listener may come while the topics are being advertised; it waits here until all of them are.
@@ -172,11 +178,26 @@ void DepthNode::Implementation::watch(const ros::SteadyTimerEvent& /*event*/)
     listening = subscribed_;
   }
   const ViewSynchronizerStatistics heard = input_.statistics();
+  watchInput(listening, heard);
+  reportHealth(listening, heard);
+}
+
+void DepthNode::Implementation::watchInput(bool listening, const ViewSynchronizerStatistics& heard)
+{
+  if (listening)
+  {
+    const std::vector<std::size_t> silent = input_.giveUpSilentViews(parameters_.patience_s);
+    if (!silent.empty())
+    {
+      diagnostics_.warn(describeSilentViews(parameters_.array, silent, parameters_.patience_s));
+    }
+  }
   const auto now = std::chrono::steady_clock::now();
   const bool waiting_for_calibration =
       parameters_.use_camera_info && queue_.waiting() > 0 && queue_.isHeldBack();
-  const bool got_something = heard.sets_complete != heard_before_.sets_complete && !waiting_for_calibration;
-  if (!listening || got_something || heard_before_.views.empty())
+  const bool got_set =
+      heard.sets_complete + heard.sets_partial != heard_before_.sets_complete + heard_before_.sets_partial;
+  if (!listening || (got_set && !waiting_for_calibration) || heard_before_.views.empty())
   {
     silent_since_ = now;
     heard_before_ = heard;
@@ -186,34 +207,59 @@ void DepthNode::Implementation::watch(const ros::SteadyTimerEvent& /*event*/)
   {
     const auto infos =
         parameters_.use_camera_info ? input_.cameraInfos() : std::vector<sensor_msgs::CameraInfoConstPtr>();
-    const std::string sentence =
-        diagnoseMissingInput(parameters_.array, heard_before_, heard, infos, parameters_.patience_s);
+    const std::string sentence = diagnoseMissingInput(parameters_.array, heard_before_, heard, infos,
+                                                      parameters_.patience_s, parameters_.queue_size);
     if (!sentence.empty())
     {
-      diagnostics_.warn(sentence);
+      diagnostics_.error(sentence);
     }
     silent_since_ = now;
     heard_before_ = heard;
   }
-  diagnostics_.update(heard, queue_.dropped(), listening);
+}
+
+void DepthNode::Implementation::reportHealth(bool listening, const ViewSynchronizerStatistics& heard)
+{
+  InputState state;
+  state.input = heard;
+  state.frames_dropped = queue_.dropped();
+  state.listening = listening;
+  if (listening)
+  {
+    health_.add(std::chrono::steady_clock::now(), heard, state.frames_dropped);
+    state.health = health_.report(diagnostics_.recentFrames().median_ms);
+  }
+  else
+  {
+    health_.forget();
+  }
+  for (std::size_t view = 0; view < heard.views.size(); ++view)
+  {
+    if (heard.views[view].missing > state.missing)
+    {
+      state.missing = heard.views[view].missing;
+      state.missing_topic = describe(parameters_.array.views[view]);
+    }
+  }
+  diagnostics_.update(state);
 }
 
 void DepthNode::Implementation::workerLoop()
 {
-  while (const std::optional<FrameSet> set = queue_.pop())
+  while (std::optional<FrameSet> set = queue_.pop())
   {
-    processSafely(*set);
+    processSafely(std::move(*set));
   }
 }
 
-void DepthNode::Implementation::processSafely(const FrameSet& set)
+void DepthNode::Implementation::processSafely(FrameSet set)
 {
   try
   {
     const Subscribers subscribers = results_->subscribers();
     if (subscribers.any())
     {
-      process(set, subscribers);
+      process(std::move(set), subscribers);
     }
   }
   catch (const Cancelled&)
@@ -226,14 +272,43 @@ void DepthNode::Implementation::processSafely(const FrameSet& set)
   }
 }
 
-void DepthNode::Implementation::process(const FrameSet& set, const Subscribers& subscribers)
+/// A camera that came back without its CameraInfo is left out where the others can stand for all.
+void DepthNode::Implementation::dropUncalibratedViews(
+    FrameSet& set, const std::vector<sensor_msgs::CameraInfoConstPtr>& infos)
+{
+  std::vector<bool> known(infos.size());
+  for (std::size_t view = 0; view < infos.size(); ++view)
+  {
+    known[view] = set.images[view] != nullptr && infos[view] != nullptr;
+  }
+  if (!parameters_.use_camera_info || !input_.quorum().isEnough(known))
+  {
+    return;
+  }
+  for (std::size_t view = 0; view < infos.size(); ++view)
+  {
+    if (set.images[view] != nullptr && infos[view] == nullptr)
+    {
+      diagnostics_.warn(describe(parameters_.array.views[view]) + ": no CameraInfo has come on '" +
+                        parameters_.array.views[view].camera_info +
+                        "', so its images are not used; publish it.");
+      set.images[view] = nullptr;
+    }
+  }
+}
+
+void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscribers)
 {
   FrameReport report;
-  report.views_expected = set.images.size();
   report.stamp_spread_ns = set.stamp_spread_ns;
   report.arrived = set.arrival;
   report.taken = std::chrono::steady_clock::now();
   const std::vector<sensor_msgs::CameraInfoConstPtr> infos = input_.cameraInfos();
+  dropUncalibratedViews(set, infos);
+  for (const sensor_msgs::ImageConstPtr& image : set.images)
+  {
+    report.used_by_view.push_back(image != nullptr);
+  }
   const LightField light_field = assembler_.assemble(set.images, infos);
   for (const std::string& warning : assembler_.warnings())
   {
@@ -275,7 +350,7 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
   products.keep_filled = settings.pipeline.keep_filled;
 
   ProductRequest request;
-  request.depth = subscribers.depth;
+  request.depth = subscribers.depth || subscribers.depth_mm;
   request.organized_cloud = subscribers.points2;
   request.organized_cloud_allocator = leftOutWhenTooLarge(
       [&](std::size_t /*count*/)
@@ -341,7 +416,8 @@ LightFieldDepthStats DepthNode::Implementation::statsOf(const FrameProducts& pro
   stats.header = products.header;
   stats.published = ros::Time::now();
   stats.method = report.method;
-  stats.views_expected = static_cast<std::uint32_t>(report.views_expected);
+  stats.views_expected = static_cast<std::uint32_t>(report.used_by_view.size());
+  stats.used_by_view.assign(report.used_by_view.begin(), report.used_by_view.end());
   stats.views_used = static_cast<std::uint32_t>(estimate.views_used);
   stats.disparity_min = estimate.range.min;
   stats.disparity_max = estimate.range.max;

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
@@ -19,6 +20,7 @@
 #include "light_field_depth/ros/depth_node.h"
 #include "ros/background_runner.h"
 #include "ros/frame_queue.h"
+#include "ros/input_health.h"
 #include "ros/light_field_assembler.h"
 #include "ros/message_pool.h"
 #include "ros/node_diagnostics.h"
@@ -35,7 +37,7 @@ struct FrameReport
 {
   using Time = std::chrono::steady_clock::time_point;
 
-  std::size_t views_expected = 0;
+  std::vector<bool> used_by_view;
   std::int64_t stamp_spread_ns = 0;
   std::string method;
   // When the steps were done.
@@ -58,11 +60,14 @@ public:
 private:
   void updateSubscriptions();
   void watch(const ros::SteadyTimerEvent& event);
+  void watchInput(bool listening, const ViewSynchronizerStatistics& heard);
+  void reportHealth(bool listening, const ViewSynchronizerStatistics& heard);
+  void dropUncalibratedViews(FrameSet& set, const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
   void workerLoop();
-  void processSafely(const FrameSet& set);
-  void process(const FrameSet& set, const Subscribers& subscribers);
+  void processSafely(FrameSet set);
+  void process(FrameSet set, const Subscribers& subscribers);
   FrameProducts compute(const LightField& light_field, const NodeSettings& settings,
                         const std_msgs::Header& header, const Subscribers& subscribers);
   PointAllocator leftOutWhenTooLarge(PointAllocator allocator);
@@ -91,6 +96,7 @@ private:
   ros::SteadyTimer watch_timer_;
   std::chrono::steady_clock::time_point silent_since_;  ///< used by watch() alone
   ViewSynchronizerStatistics heard_before_;             ///< at silent_since_
+  InputHealth health_;                                  ///< used by watch() alone
   std::thread worker_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace light_field_depth
@@ -42,6 +43,22 @@ std::vector<std::size_t> silentViews(const ViewSynchronizerStatistics& before,
   return silent;
 }
 
+/// The view whose images came after their sets had been given up, and latest; none if all came in time.
+std::optional<std::size_t> latestView(const ViewSynchronizerStatistics& before,
+                                      const ViewSynchronizerStatistics& now)
+{
+  std::optional<std::size_t> latest;
+  for (std::size_t view = 0; view < now.views.size(); ++view)
+  {
+    if (now.views[view].late > before.views[view].late &&
+        (!latest || now.views[view].late_by_sets > now.views[*latest].late_by_sets))
+    {
+      latest = view;
+    }
+  }
+  return latest;
+}
+
 std::string stampDifference(const ViewSynchronizerStatistics& statistics)
 {
   std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
@@ -60,7 +77,8 @@ std::string stampDifference(const ViewSynchronizerStatistics& statistics)
 
 std::string diagnoseMissingInput(const ViewArray& array, const ViewSynchronizerStatistics& before,
                                  const ViewSynchronizerStatistics& now,
-                                 const std::vector<sensor_msgs::CameraInfoConstPtr>& infos, double seconds)
+                                 const std::vector<sensor_msgs::CameraInfoConstPtr>& infos, double seconds,
+                                 int queue_size)
 {
   std::ostringstream text;
   const std::vector<std::size_t> silent = silentViews(before, now);
@@ -71,14 +89,28 @@ std::string diagnoseMissingInput(const ViewArray& array, const ViewSynchronizerS
          << " views; start the cameras or the bag, or correct the topics of 'array'.";
     return text.str();
   }
+  if (std::find(silent.begin(), silent.end(), array.reference) != silent.end())
+  {
+    text << describe(array.views[array.reference]) << ", the reference view: no image came in the last "
+         << seconds << " s, and every result belongs to it; bring this camera back, or name another one as "
+         << "'reference' of the array.";
+    return text.str();
+  }
   if (!silent.empty())
   {
     text << describe(array.views[silent.front()]) << ": no image came in the last " << seconds << " s"
          << others(array, silent) << "; start these cameras, or leave these views out of 'array'.";
     return text.str();
   }
-  if (now.sets_complete == before.sets_complete)
+  if (now.sets_complete + now.sets_partial == before.sets_complete + before.sets_partial)
   {
+    if (const std::optional<std::size_t> late = latestView(before, now))
+    {
+      text << describe(array.views[*late]) << ": its images have the stamps of the others, but come up to "
+           << now.views[*late].late_by_sets << " sets after them, when their set has been given up. Raise "
+           << "queue_size (" << queue_size << ") above that, or find out what holds this camera up.";
+      return text.str();
+    }
     text << "All " << array.views.size()
          << " views send images, but no stamp has come from all of them in the last " << seconds
          << " s; their newest stamps are up to " << stampDifference(now)
@@ -100,6 +132,16 @@ std::string diagnoseMissingInput(const ViewArray& array, const ViewSynchronizerS
          << array.views[uncalibrated.front()].camera_info << "'" << others(array, uncalibrated)
          << "; publish it, or set use_camera_info to false and give focal_length and baseline_x.";
   }
+  return text.str();
+}
+
+std::string describeSilentViews(const ViewArray& array, const std::vector<std::size_t>& silent,
+                                double seconds)
+{
+  std::ostringstream text;
+  text << describe(array.views[silent.front()]) << ": no image came in the last " << seconds << " s"
+       << others(array, silent) << "; going on with the " << array.views.size() - silent.size() << " of "
+       << array.views.size() << " views that are left. Start it again; it is used once it is back.";
   return text.str();
 }
 

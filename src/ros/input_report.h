@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_ROS_INPUT_REPORT_H
 #define LIGHT_FIELD_DEPTH_SRC_ROS_INPUT_REPORT_H
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,16 @@ namespace light_field_depth
 /// @param now     and at its end
 /// @param infos   one for each view, null where none has come; empty when none is needed
 /// @param seconds how long it was
+/// @param queue_size the parameter in force
 std::string diagnoseMissingInput(const ViewArray& array, const ViewSynchronizerStatistics& before,
                                  const ViewSynchronizerStatistics& now,
-                                 const std::vector<sensor_msgs::CameraInfoConstPtr>& infos, double seconds);
+                                 const std::vector<sensor_msgs::CameraInfoConstPtr>& infos, double seconds,
+                                 int queue_size);
+
+/// What is said of views that have been silent for a while, and that the node goes on without.
+/// @param silent at least one
+std::string describeSilentViews(const ViewArray& array, const std::vector<std::size_t>& silent,
+                                double seconds);
 
 }  // namespace light_field_depth
 

@@ -1,6 +1,5 @@
 #include "ros/node_diagnostics.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
@@ -15,6 +14,21 @@ using diagnostic_msgs::DiagnosticStatus;
 /// A warning is part of the status for so long after it was last given: longer than the diagnostics' period,
 /// however many good frames come meanwhile.
 constexpr std::chrono::seconds WARNING_HOLDS(5);
+/// Of the period: a timer that comes a little early is not to skip a turn.
+constexpr double EARLY = 0.9;
+
+std::uint8_t levelOf(Health health)
+{
+  switch (health)
+  {
+    case Health::Ok:
+      return DiagnosticStatus::OK;
+    case Health::Warn:
+      return DiagnosticStatus::WARN;
+    default:
+      return DiagnosticStatus::ERROR;
+  }
+}
 
 }  // namespace
 
@@ -49,12 +63,34 @@ void NodeDiagnostics::frameFailed(const std::string& sentence)
 
 void NodeDiagnostics::warn(const std::string& sentence)
 {
+  give(sentence, Health::Warn);
+}
+
+void NodeDiagnostics::error(const std::string& sentence)
+{
+  give(sentence, Health::Error);
+}
+
+void NodeDiagnostics::give(const std::string& sentence, Health health)
+{
   const std::lock_guard<std::mutex> lock(mutex_);
-  last_warning_ = sentence;
-  warned_at_ = std::chrono::steady_clock::now();
+  const auto now = std::chrono::steady_clock::now();
+  if (health >= warned_health_ || now - warned_at_ >= WARNING_HOLDS)
+  {
+    last_warning_ = sentence;
+    warned_health_ = health;
+    warned_at_ = now;
+  }
   if (isNews(sentence))
   {
-    ROS_WARN_STREAM(sentence);
+    if (health == Health::Error)
+    {
+      ROS_ERROR_STREAM(sentence);
+    }
+    else
+    {
+      ROS_WARN_STREAM(sentence);
+    }
   }
 }
 
@@ -89,40 +125,46 @@ RecentFrames::Summary NodeDiagnostics::recentFrames() const
   return recent_.summary();
 }
 
-void NodeDiagnostics::update(const ViewSynchronizerStatistics& input, std::uint64_t frames_dropped,
-                             bool listening)
+void NodeDiagnostics::update(const InputState& state)
 {
-  input_ = input;
-  frames_dropped_ = frames_dropped;
-  listening_ = listening;
-  updater_.update();
+  state_ = state;
+  const auto now = std::chrono::steady_clock::now();
+  // The updater's own clock is that of ROS, and stands still while a simulation or a bag goes back.
+  if (std::chrono::duration<double>(now - updated_at_).count() >= EARLY * updater_.getPeriod())
+  {
+    updated_at_ = now;
+    updater_.force_update();
+  }
 }
 
 void NodeDiagnostics::reportInput(diagnostic_updater::DiagnosticStatusWrapper& status)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!listening_)
+  const bool warned = !last_warning_.empty() && std::chrono::steady_clock::now() - warned_at_ < WARNING_HOLDS;
+  if (!state_.listening)
   {
     status.summary(DiagnosticStatus::OK, "Nobody listens.");
   }
-  else if (!last_warning_.empty() && std::chrono::steady_clock::now() - warned_at_ < WARNING_HOLDS)
+  else if (warned && warned_health_ >= state_.health.health)
   {
-    status.summary(DiagnosticStatus::WARN, last_warning_);
+    status.summary(levelOf(warned_health_), last_warning_);
+  }
+  else if (state_.health.health != Health::Ok)
+  {
+    status.summary(levelOf(state_.health.health), state_.health.sentence);
   }
   else
   {
     status.summary(DiagnosticStatus::OK, "Receiving.");
   }
-  status.add("whole sets", input_.sets_complete);
-  status.add("incomplete sets", input_.sets_dropped);
-  status.add("jumps back in time", input_.time_jumps);
-  const auto worst =
-      std::max_element(input_.views.begin(), input_.views.end(),
-                       [](const ViewCounts& a, const ViewCounts& b) { return a.missing < b.missing; });
-  if (worst != input_.views.end() && worst->missing > 0)
+  status.add("whole sets", state_.input.sets_complete);
+  status.add("sets used without all views", state_.input.sets_partial);
+  status.add("incomplete sets", state_.input.sets_dropped);
+  status.add("jumps back in time", state_.input.time_jumps);
+  if (state_.missing > 0)
   {
-    status.add("most often missing, index of the view", worst - input_.views.begin());
-    status.add("most often missing, times", worst->missing);
+    status.add("most often missing", state_.missing_topic);
+    status.add("most often missing, times", state_.missing);
   }
 }
 
@@ -151,7 +193,7 @@ void NodeDiagnostics::reportFrames(diagnostic_updater::DiagnosticStatusWrapper& 
   }
   status.add("published", frames_published_);
   status.add("failed", frames_failed_);
-  status.add("replaced by newer ones", frames_dropped_);
+  status.add("replaced by newer ones", state_.frames_dropped);
   const RecentFrames::Summary recent = recent_.summary();
   status.add("recent rate, Hz", recent.rate_hz);
   status.add("recent latency, median, ms", recent.median_ms);

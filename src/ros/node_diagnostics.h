@@ -10,12 +10,24 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
+#include "ros/input_health.h"
 #include "ros/log_throttle.h"
 #include "ros/recent_frames.h"
 #include "ros/view_synchronizer.h"
 
 namespace light_field_depth
 {
+/// What the diagnostics say of the input, besides warnings.
+struct InputState
+{
+  ViewSynchronizerStatistics input;
+  std::uint64_t frames_dropped = 0;
+  bool listening = false;
+  HealthReport health;
+  std::string missing_topic;  ///< of the view that was missing most often; empty if none was
+  std::uint64_t missing = 0;  ///< how often
+};
+
 /// What the node tells its operator: sentences in the log, not too often, and the diagnostics. Thread safe,
 /// except update().
 class NodeDiagnostics
@@ -29,6 +41,8 @@ public:
   void frameFailed(const std::string& sentence);
   /// Something that should be looked at, logged likewise.
   void warn(const std::string& sentence);
+  /// Something that keeps all results away, logged likewise.
+  void error(const std::string& sentence);
 
   /// What gives to doubt in the results of late; empty if nothing does. New sentences are logged.
   void setDoubts(const std::vector<std::string>& sentences);
@@ -37,11 +51,12 @@ public:
   std::uint64_t framesFailed() const;
   RecentFrames::Summary recentFrames() const;
 
-  /// Publishes the diagnostics when they are due.
-  void update(const ViewSynchronizerStatistics& input, std::uint64_t frames_dropped, bool listening);
+  /// Publishes the diagnostics when they are due, by a clock that no simulation turns back.
+  void update(const InputState& state);
 
 private:
   void reportInput(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void give(const std::string& sentence, Health health);
   void reportFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportResult(diagnostic_updater::DiagnosticStatusWrapper& status);
   bool isNews(const std::string& sentence)
@@ -55,14 +70,14 @@ private:
   RecentFrames recent_;
   std::string last_failure_;  ///< empty after a frame that went well
   std::string last_warning_;
+  Health warned_health_ = Health::Ok;
   std::chrono::steady_clock::time_point warned_at_;
   std::vector<std::string> doubts_;
   LogThrottle logged_;
 
   // Used by update() alone.
-  ViewSynchronizerStatistics input_;
-  std::uint64_t frames_dropped_ = 0;
-  bool listening_ = false;
+  InputState state_;
+  std::chrono::steady_clock::time_point updated_at_;
   diagnostic_updater::Updater updater_;
 };
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <image_transport/image_transport.h>
 
 #include "light_field_depth/core/error.h"
+#include "ros/parameter_check.h"
 
 namespace light_field_depth
 {
@@ -16,6 +19,7 @@ namespace
 constexpr double MAX_TOLERANCE_S = 10.0;
 constexpr int MAX_QUEUE = 10000;
 constexpr int MAX_THREADS = 1024;
+constexpr double MAX_SECONDS = 1e6;
 
 template <class T>
 const char* typeName()
@@ -34,44 +38,58 @@ const char* typeName()
   }
 }
 
-/// Reads one parameter; a value of the wrong type is an error, not a reason to take the default.
-template <class T>
-bool read(const ros::NodeHandle& node_handle, const std::string& name, T& value)
+/// Reads parameters and remembers which there are.
+class ParameterReader
 {
-  if (!node_handle.hasParam(name))
-  {
-    return false;
-  }
-  if (!node_handle.getParam(name, value))
-  {
-    throw InputError("The parameter '" + node_handle.resolveName(name) + "' is not " + typeName<T>() +
-                     "; correct it or remove it.");
-  }
-  return true;
-}
+public:
+  explicit ParameterReader(const ros::NodeHandle& node_handle) : node_handle_(node_handle) {}
 
-template <class T>
-void readInRange(const ros::NodeHandle& node_handle, const std::string& name, T smallest, T largest, T& value)
-{
-  read(node_handle, name, value);
-  if (!(value >= smallest && value <= largest))
+  /// A value of the wrong type is an error, not a reason to take the default. @return whether there is one
+  template <class T>
+  bool read(const std::string& name, T& value)
   {
-    throw InputError("The parameter '" + node_handle.resolveName(name) + "' is " + std::to_string(value) +
-                     "; give a value from " + std::to_string(smallest) + " to " + std::to_string(largest) +
-                     ".");
+    names_.insert(name);
+    if (!node_handle_.hasParam(name))
+    {
+      return false;
+    }
+    if (!node_handle_.getParam(name, value))
+    {
+      throw InputError("The parameter '" + node_handle_.resolveName(name) + "' is not " + typeName<T>() +
+                       "; correct it or remove it.");
+    }
+    return true;
   }
-}
 
-CalibrationParameters readCalibration(const ros::NodeHandle& node_handle)
+  template <class T>
+  void readInRange(const std::string& name, T smallest, T largest, T& value)
+  {
+    read(name, value);
+    if (!(value >= smallest && value <= largest))
+    {
+      throw InputError("The parameter '" + node_handle_.resolveName(name) + "' is " + std::to_string(value) +
+                       "; give a value from " + std::to_string(smallest) + " to " + std::to_string(largest) +
+                       ".");
+    }
+  }
+
+  const std::set<std::string>& names() const { return names_; }
+
+private:
+  const ros::NodeHandle& node_handle_;
+  std::set<std::string> names_;
+};
+
+CalibrationParameters readCalibration(ParameterReader& reader)
 {
   CalibrationParameters calibration;
-  read(node_handle, "baseline_x", calibration.baseline_x_m);
-  read(node_handle, "baseline_y", calibration.baseline_y_m);
-  read(node_handle, "focal_length", calibration.focal_length_px);
-  read(node_handle, "disparity_offset", calibration.disparity_offset_px);
+  reader.read("baseline_x", calibration.baseline_x_m);
+  reader.read("baseline_y", calibration.baseline_y_m);
+  reader.read("focal_length", calibration.focal_length_px);
+  reader.read("disparity_offset", calibration.disparity_offset_px);
   cv::Point2d principal_point;
-  const bool has_x = read(node_handle, "principal_point_x", principal_point.x);
-  const bool has_y = read(node_handle, "principal_point_y", principal_point.y);
+  const bool has_x = reader.read("principal_point_x", principal_point.x);
+  const bool has_y = reader.read("principal_point_y", principal_point.y);
   if (has_x != has_y)
   {
     throw InputError(
@@ -87,6 +105,17 @@ CalibrationParameters readCalibration(const ros::NodeHandle& node_handle)
     throw InputError(problem);
   }
   return calibration;
+}
+
+void readHealth(ParameterReader& reader, HealthThresholds& health)
+{
+  // A share above 1 is never reached.
+  reader.readInRange("warn_incomplete", 0.0, 2.0, health.warn_incomplete);
+  reader.readInRange("error_incomplete", 0.0, 2.0, health.error_incomplete);
+  reader.readInRange("warn_replaced", 0.0, 2.0, health.warn_replaced);
+  reader.readInRange("error_replaced", 0.0, 2.0, health.error_replaced);
+  reader.readInRange("warn_latency", 0.0, MAX_SECONDS, health.warn_latency_s);
+  reader.readInRange("error_latency", 0.0, MAX_SECONDS, health.error_latency_s);
 }
 
 /// An unknown transport would throw at the first subscription, from a callback.
@@ -112,32 +141,44 @@ void checkTransport(const ros::NodeHandle& node_handle, const std::string& trans
 NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
 {
   NodeParameters parameters;
+  ParameterReader reader(private_node_handle);
   XmlRpc::XmlRpcValue array;
-  if (private_node_handle.getParam("array", array))
+  if (reader.read("array", array))
   {
     parameters.array = viewArrayFromParameter(array);
   }
-  read(private_node_handle, "use_camera_info", parameters.use_camera_info);
-  parameters.calibration = readCalibration(private_node_handle);
+  reader.read("use_camera_info", parameters.use_camera_info);
+  parameters.calibration = readCalibration(reader);
   if (!parameters.use_camera_info)
   {
     // Said now rather than at the first frame.
     calibrationFromParameters(gridOf(parameters.array), parameters.array.reference, parameters.calibration,
                               {});
   }
-  readInRange(private_node_handle, "sync_tolerance", 0.0, MAX_TOLERANCE_S, parameters.sync_tolerance_s);
-  readInRange(private_node_handle, "queue_size", 1, MAX_QUEUE, parameters.queue_size);
-  read(private_node_handle, "keep_all", parameters.keep_all);
-  readInRange(private_node_handle, "keep_all_limit", 1, MAX_QUEUE, parameters.keep_all_limit);
-  read(private_node_handle, "lazy", parameters.lazy);
-  readInRange(private_node_handle, "threads", 0, MAX_THREADS, parameters.threads);
-  read(private_node_handle, "frame_id", parameters.frame_id);
-  if (read(private_node_handle, "image_transport", parameters.image_transport))
+  reader.readInRange("sync_tolerance", 0.0, MAX_TOLERANCE_S, parameters.sync_tolerance_s);
+  reader.readInRange("queue_size", 1, MAX_QUEUE, parameters.queue_size);
+  reader.read("keep_all", parameters.keep_all);
+  reader.readInRange("keep_all_limit", 1, MAX_QUEUE, parameters.keep_all_limit);
+  reader.read("lazy", parameters.lazy);
+  reader.readInRange("threads", 0, MAX_THREADS, parameters.threads);
+  reader.read("frame_id", parameters.frame_id);
+  if (reader.read("image_transport", parameters.image_transport))
   {
     checkTransport(private_node_handle, parameters.image_transport);
   }
-  read(private_node_handle, "check_order", parameters.check_order);
-  readInRange(private_node_handle, "patience", 0.1, 1e6, parameters.patience_s);
+  reader.read("check_order", parameters.check_order);
+  reader.readInRange("patience", 0.1, MAX_SECONDS, parameters.patience_s);
+  reader.readInRange("min_views", 0, static_cast<int>(parameters.array.views.size()), parameters.min_views);
+  reader.read("allow_incomplete", parameters.allow_incomplete);
+  readHealth(reader, parameters.health);
+
+  parameters.warnings = checkSettings(private_node_handle);
+  std::set<std::string> names = reader.names();
+  names.insert("diagnostic_period");  // of diagnostic_updater
+  for (std::string& sentence : describeUnknownParameters(private_node_handle, names))
+  {
+    parameters.warnings.push_back(std::move(sentence));
+  }
   return parameters;
 }
 

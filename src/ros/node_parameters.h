@@ -2,11 +2,13 @@
 #define LIGHT_FIELD_DEPTH_SRC_ROS_NODE_PARAMETERS_H
 
 #include <string>
+#include <vector>
 
 #include <ros/node_handle.h>
 
 #include "light_field_depth/ros/calibration_from_camera_info.h"
 #include "light_field_depth/ros/view_array.h"
+#include "ros/input_health.h"
 
 namespace light_field_depth
 {
@@ -53,6 +55,20 @@ struct NodeParameters
 
   /// `patience`, in seconds: how long without a whole set until a warning says what is missing.
   double patience_s = 5.0;
+
+  /// `min_views`: a set counts as whole without the views that have been silent for `patience`, if so many
+  /// are left; 0: three quarters. The reference view is always needed, and one on each side of it.
+  int min_views = 0;
+
+  /// `allow_incomplete`: also use sets that lack single images, once the view in question has gone on.
+  bool allow_incomplete = false;
+
+  /// `warn_incomplete`, `error_incomplete`, `warn_replaced`, `error_replaced`, `warn_latency`,
+  /// `error_latency`: for the diagnostics.
+  HealthThresholds health;
+
+  /// Sentences about parameters that nobody reads or whose values were changed.
+  std::vector<std::string> warnings;
 };
 
 /// @throw InputError that names the parameter, its value and the remedy

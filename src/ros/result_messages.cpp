@@ -170,6 +170,35 @@ sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv
   return message;
 }
 
+sensor_msgs::ImagePtr millimetreImageMessage(const std_msgs::Header& header, const cv::Mat& depth_m)
+{
+  constexpr float MILLIMETRES_PER_METRE = 1000.0F;
+  constexpr float LARGEST = std::numeric_limits<std::uint16_t>::max();
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  shape(*message, header, depth_m.size(), sensor_msgs::image_encodings::TYPE_16UC1, CV_16UC1);
+  cv::Mat pixels = pixelsOf(*message, CV_16UC1);
+  for (int y = 0; y < pixels.rows; ++y)
+  {
+    const float* const metres = depth_m.ptr<float>(y);
+    auto* const out = pixels.ptr<std::uint16_t>(y);
+    for (int x = 0; x < pixels.cols; ++x)
+    {
+      const float millimetres = std::round(metres[x] * MILLIMETRES_PER_METRE);
+      out[x] = millimetres > 0.0F && millimetres <= LARGEST ? static_cast<std::uint16_t>(millimetres) : 0;
+    }
+  }
+  return message;
+}
+
+sensor_msgs::ImagePtr confidenceMono8Message(const std_msgs::Header& header, const cv::Mat& confidence)
+{
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  shape(*message, header, confidence.size(), sensor_msgs::image_encodings::MONO8, CV_8UC1);
+  cv::Mat pixels = pixelsOf(*message, CV_8UC1);
+  confidence.convertTo(pixels, CV_8UC1, std::numeric_limits<std::uint8_t>::max());
+  return message;
+}
+
 sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header, const DisparityEstimate& estimate)
 {
   auto message = boost::make_shared<sensor_msgs::Image>();

@@ -38,7 +38,9 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& private_node_handle,
                                                  private_node_handle, "disparity", on_subscribers_changed)),
       disparity_color_(advertiseImage(image_transport_, "disparity_color", on_subscribers_changed)),
       depth_(advertiseImage(image_transport_, "depth", on_subscribers_changed)),
+      depth_mm_(advertiseImage(image_transport_, "depth_mm", on_subscribers_changed)),
       confidence_(advertiseImage(image_transport_, "confidence", on_subscribers_changed)),
+      confidence_mono8_(advertiseImage(image_transport_, "confidence_mono8", on_subscribers_changed)),
       points2_(advertise<sensor_msgs::PointCloud2>(private_node_handle, "points2", on_subscribers_changed)),
       points_dense_(
           advertise<sensor_msgs::PointCloud2>(private_node_handle, "points_dense", on_subscribers_changed)),
@@ -59,6 +61,8 @@ Subscribers ResultPublisher::subscribers() const
   subscribers.disparity = disparity_.getNumSubscribers() > 0;
   subscribers.disparity_color = disparity_color_.getNumSubscribers() > 0;
   subscribers.depth = depth_.getNumSubscribers() > 0;
+  subscribers.depth_mm = depth_mm_.getNumSubscribers() > 0;
+  subscribers.confidence_mono8 = confidence_mono8_.getNumSubscribers() > 0;
   subscribers.confidence = confidence_.getNumSubscribers() > 0;
   subscribers.points2 = points2_.getNumSubscribers() > 0;
   subscribers.points_dense = points_dense_.getNumSubscribers() > 0;
@@ -103,6 +107,14 @@ void ResultPublisher::publish(const FrameProducts& products) const
   {
     depth_.publish(floatImageMessage(header, result.depth));
   }
+  if (subscribers.depth_mm && !result.depth.empty())
+  {
+    depth_mm_.publish(millimetreImageMessage(header, result.depth));
+  }
+  if (subscribers.confidence_mono8)
+  {
+    confidence_mono8_.publish(confidenceMono8Message(header, result.estimate.confidence));
+  }
   if (subscribers.confidence)
   {
     confidence_.publish(floatImageMessage(header, result.estimate.confidence));
@@ -127,7 +139,9 @@ void ResultPublisher::shutdown()
   disparity_.shutdown();
   disparity_color_.shutdown();
   depth_.shutdown();
+  depth_mm_.shutdown();
   confidence_.shutdown();
+  confidence_mono8_.shutdown();
   points2_.shutdown();
   points_dense_.shutdown();
   camera_info_.shutdown();

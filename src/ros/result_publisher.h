@@ -24,7 +24,9 @@ struct Subscribers
   bool disparity = false;
   bool disparity_color = false;
   bool depth = false;
+  bool depth_mm = false;
   bool confidence = false;
+  bool confidence_mono8 = false;
   bool points2 = false;
   bool points_dense = false;
   bool camera_info = false;
@@ -34,8 +36,8 @@ struct Subscribers
 
   bool any() const
   {
-    return disparity || disparity_color || depth || confidence || points2 || points_dense || camera_info ||
-           stereo_infos || reference_image || stats;
+    return disparity || disparity_color || depth || depth_mm || confidence || confidence_mono8 || points2 ||
+           points_dense || camera_info || stereo_infos || reference_image || stats;
   }
 };
 
@@ -79,7 +81,9 @@ private:
   ros::Publisher disparity_;
   image_transport::Publisher disparity_color_;
   image_transport::Publisher depth_;
+  image_transport::Publisher depth_mm_;
   image_transport::Publisher confidence_;
+  image_transport::Publisher confidence_mono8_;
   ros::Publisher points2_;
   ros::Publisher points_dense_;
   ros::Publisher camera_info_;

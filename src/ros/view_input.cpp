@@ -12,12 +12,14 @@ namespace
 {
 constexpr double NANOSECONDS_PER_SECOND = 1e9;
 
-ViewSynchronizerOptions synchronizerOptions(const NodeParameters& parameters)
+ViewSynchronizerOptions synchronizerOptions(const NodeParameters& parameters, const ViewQuorum& quorum)
 {
   ViewSynchronizerOptions options;
   options.view_count = parameters.array.views.size();
   options.queue_size = static_cast<std::size_t>(parameters.queue_size);
   options.tolerance_ns = static_cast<std::int64_t>(parameters.sync_tolerance_s * NANOSECONDS_PER_SECOND);
+  options.enough = [quorum](const std::vector<bool>& present) { return quorum.isEnough(present); };
+  options.allow_incomplete = parameters.allow_incomplete;
   return options;
 }
 
@@ -27,8 +29,10 @@ ViewInput::ViewInput(const ros::NodeHandle& node_handle, const ros::NodeHandle& 
                      const NodeParameters& parameters, FrameCallback on_frame,
                      CalibratedCallback on_calibrated)
     : node_handle_(node_handle), private_node_handle_(private_node_handle), parameters_(parameters),
+      quorum_(parameters.array, static_cast<std::size_t>(parameters.min_views)),
       on_frame_(std::move(on_frame)), on_calibrated_(std::move(on_calibrated)), image_transport_(node_handle),
-      synchronizer_(synchronizerOptions(parameters)), infos_(parameters.array.views.size())
+      synchronizer_(synchronizerOptions(parameters, quorum_)), infos_(parameters.array.views.size()),
+      given_up_(parameters.array.views.size())
 {
 }
 
@@ -41,6 +45,10 @@ void ViewInput::subscribe()
 {
   if (image_subscribers_.empty())
   {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      heard_.assign(parameters_.array.views.size(), std::chrono::steady_clock::now());
+    }
     for (std::size_t view = 0; view < parameters_.array.views.size(); ++view)
     {
       subscribeTo(view);
@@ -81,6 +89,7 @@ void ViewInput::unsubscribe()
   info_subscribers_.clear();
   const std::lock_guard<std::mutex> lock(mutex_);
   synchronizer_.reset();
+  given_up_.assign(given_up_.size(), false);
 }
 
 void ViewInput::forget()
@@ -88,7 +97,67 @@ void ViewInput::forget()
   const std::lock_guard<std::mutex> lock(mutex_);
   synchronizer_.reset();
   infos_.assign(infos_.size(), nullptr);
-  info_count_ = 0;
+}
+
+std::vector<std::size_t> ViewInput::giveUpSilentViews(double seconds)
+{
+  std::vector<std::size_t> silent;
+  std::vector<Synchronizer::Set> sets;
+  bool calibrated = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    std::vector<bool> heard(heard_.size());
+    for (std::size_t view = 0; view < heard_.size(); ++view)
+    {
+      heard[view] = std::chrono::duration<double>(now - heard_[view]).count() < seconds;
+    }
+    if (heard_.empty() || !quorum_.isEnough(heard))
+    {
+      return silent;
+    }
+    const bool calibrated_before = isCalibrated();
+    for (std::size_t view = 0; view < heard.size(); ++view)
+    {
+      if (!heard[view])
+      {
+        silent.push_back(view);
+        given_up_[view] = true;
+        synchronizer_.setSilent(view);
+      }
+    }
+    calibrated = !calibrated_before && isCalibrated();
+    while (std::optional<Synchronizer::Set> set = synchronizer_.next())
+    {
+      sets.push_back(std::move(*set));
+    }
+  }
+  if (calibrated)
+  {
+    on_calibrated_();
+  }
+  deliver(std::move(sets));
+  return silent;
+}
+
+bool ViewInput::isCalibrated() const
+{
+  for (std::size_t view = 0; view < infos_.size(); ++view)
+  {
+    if (infos_[view] == nullptr && !given_up_[view])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void ViewInput::deliver(std::vector<Synchronizer::Set> sets)
+{
+  for (Synchronizer::Set& set : sets)
+  {
+    on_frame_({std::move(set.payloads), set.spread_ns, std::chrono::steady_clock::now()});
+  }
 }
 
 std::vector<sensor_msgs::CameraInfoConstPtr> ViewInput::cameraInfos() const
@@ -105,15 +174,18 @@ ViewSynchronizerStatistics ViewInput::statistics() const
 
 void ViewInput::imageCallback(std::size_t view, const sensor_msgs::ImageConstPtr& image)
 {
-  std::optional<Synchronizer::Set> set;
+  std::vector<Synchronizer::Set> sets;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    set = synchronizer_.add(view, static_cast<std::int64_t>(image->header.stamp.toNSec()), image);
+    heard_[view] = std::chrono::steady_clock::now();
+    given_up_[view] = false;
+    auto set = synchronizer_.add(view, static_cast<std::int64_t>(image->header.stamp.toNSec()), image);
+    for (; set; set = synchronizer_.next())
+    {
+      sets.push_back(std::move(*set));
+    }
   }
-  if (set)
-  {
-    on_frame_({std::move(set->payloads), set->spread_ns, std::chrono::steady_clock::now()});
-  }
+  deliver(std::move(sets));
 }
 
 void ViewInput::cameraInfoCallback(std::size_t view, const sensor_msgs::CameraInfoConstPtr& info)
@@ -121,11 +193,9 @@ void ViewInput::cameraInfoCallback(std::size_t view, const sensor_msgs::CameraIn
   bool calibrated = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (infos_[view] == nullptr)
-    {
-      calibrated = ++info_count_ == infos_.size();
-    }
+    const bool calibrated_before = isCalibrated();
     infos_[view] = info;
+    calibrated = !calibrated_before && isCalibrated();
   }
   if (calibrated)
   {

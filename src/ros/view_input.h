@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_ROS_VIEW_INPUT_H
 #define LIGHT_FIELD_DEPTH_SRC_ROS_VIEW_INPUT_H
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
@@ -16,6 +17,7 @@
 
 #include "ros/frame_queue.h"
 #include "ros/node_parameters.h"
+#include "ros/view_quorum.h"
 #include "ros/view_synchronizer.h"
 
 namespace light_field_depth
@@ -30,7 +32,7 @@ public:
   using CalibratedCallback = std::function<void()>;
 
   /// @param on_frame      called with every whole set
-  /// @param on_calibrated called when every view has had a CameraInfo, once until forgetCameraInfos()
+  /// @param on_calibrated called when every view that is not given up has had a CameraInfo
   /// Both are called from the threads of the node handle's callback queue.
   ViewInput(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle,
             const NodeParameters& parameters, FrameCallback on_frame, CalibratedCallback on_calibrated);
@@ -43,6 +45,11 @@ public:
   /// Drops incomplete sets and CameraInfos.
   void forget();
 
+  /// Gives up, until their next message, the views from which no image has come for so long, if the others
+  /// can stand for all. @return all views that are given up now
+  std::vector<std::size_t> giveUpSilentViews(double seconds);
+
+  const ViewQuorum& quorum() const { return quorum_; }
   std::vector<sensor_msgs::CameraInfoConstPtr> cameraInfos() const;  ///< null where none has come yet
   ViewSynchronizerStatistics statistics() const;
 
@@ -50,12 +57,15 @@ private:
   using Synchronizer = ViewSynchronizer<sensor_msgs::ImageConstPtr>;
 
   void subscribeTo(std::size_t view);
+  void deliver(std::vector<Synchronizer::Set> sets);
+  bool isCalibrated() const;
   void imageCallback(std::size_t view, const sensor_msgs::ImageConstPtr& image);
   void cameraInfoCallback(std::size_t view, const sensor_msgs::CameraInfoConstPtr& info);
 
   ros::NodeHandle node_handle_;
   ros::NodeHandle private_node_handle_;
   NodeParameters parameters_;
+  ViewQuorum quorum_;
   FrameCallback on_frame_;
   CalibratedCallback on_calibrated_;
   image_transport::ImageTransport image_transport_;
@@ -65,7 +75,8 @@ private:
   mutable std::mutex mutex_;  ///< guards what follows
   Synchronizer synchronizer_;
   std::vector<sensor_msgs::CameraInfoConstPtr> infos_;
-  std::size_t info_count_ = 0;  ///< views that have had one
+  std::vector<std::chrono::steady_clock::time_point> heard_;  ///< when each view's last image came
+  std::vector<bool> given_up_;
 };
 
 }  // namespace light_field_depth

@@ -271,5 +271,100 @@ TEST(ViewSynchronizer, RefusesOptionsThatCannotBeUsed)
   EXPECT_THROW(makeSynchronizer(2, 0, 0), InputError);
 }
 
+/// A synchroniser of three views that may do without the last one.
+Synchronizer tolerantSynchronizer(bool allow_incomplete)
+{
+  ViewSynchronizerOptions options;
+  options.view_count = 3;
+  options.allow_incomplete = allow_incomplete;
+  options.enough = [](const std::vector<bool>& present) { return present[0] && present[1]; };
+  return Synchronizer(options);
+}
+
+TEST(ViewSynchronizerPartialSets, AreUsedWithoutASilentView)
+{
+  Synchronizer synchronizer = tolerantSynchronizer(false);
+  add(synchronizer, 0, 100);
+  EXPECT_FALSE(add(synchronizer, 1, 100));
+  synchronizer.setSilent(2);
+  const auto waiting = synchronizer.next();
+  ASSERT_TRUE(waiting) << "what waited is used at once";
+  EXPECT_FALSE(waiting->payloads[2]);
+  add(synchronizer, 0, 200);
+  EXPECT_TRUE(add(synchronizer, 1, 200));
+  EXPECT_EQ(synchronizer.statistics().sets_partial, 2U);
+  EXPECT_EQ(synchronizer.statistics().views[2].missing, 2U);
+
+  EXPECT_FALSE(add(synchronizer, 2, 300)) << "it is back";
+  add(synchronizer, 0, 300);
+  const auto whole = add(synchronizer, 1, 300);
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(whole->payloads[2]);
+  add(synchronizer, 0, 400);
+  EXPECT_FALSE(add(synchronizer, 1, 400)) << "and waited for";
+}
+
+TEST(ViewSynchronizerPartialSets, NeedEnoughViews)
+{
+  Synchronizer synchronizer = tolerantSynchronizer(true);
+  synchronizer.setSilent(1);
+  add(synchronizer, 0, 100);
+  EXPECT_FALSE(add(synchronizer, 2, 100));
+  add(synchronizer, 0, 200);
+  EXPECT_FALSE(add(synchronizer, 2, 200));
+}
+
+TEST(ViewSynchronizerPartialSets, LackASingleImageOnceItsViewHasGoneOn)
+{
+  for (const bool allow_incomplete : {false, true})
+  {
+    Synchronizer synchronizer = tolerantSynchronizer(allow_incomplete);
+    add(synchronizer, 0, 100);
+    add(synchronizer, 1, 100);
+    add(synchronizer, 0, 200);
+    const auto first = add(synchronizer, 2, 200);
+    EXPECT_EQ(first.has_value(), allow_incomplete);
+    EXPECT_TRUE(add(synchronizer, 1, 200));
+    EXPECT_EQ(synchronizer.statistics().sets_partial, allow_incomplete ? 1U : 0U);
+    EXPECT_EQ(synchronizer.statistics().sets_dropped, allow_incomplete ? 0U : 1U);
+  }
+}
+
+TEST(ViewSynchronizerLateMessages, AreCountedWithHowLateTheyAre)
+{
+  Synchronizer synchronizer = makeSynchronizer(2, 0, 3);
+  for (std::int64_t frame = 1; frame <= 20; ++frame)
+  {
+    add(synchronizer, 0, 100 * frame);
+    if (frame > 6)
+    {
+      EXPECT_FALSE(add(synchronizer, 1, 100 * (frame - 6)));
+    }
+  }
+  const ViewCounts& late = synchronizer.statistics().views[1];
+  EXPECT_EQ(late.late, 14U);
+  EXPECT_EQ(late.late_by_sets, 7U) << "a queue of more sets holds them";
+  EXPECT_EQ(synchronizer.statistics().views[0].late, 0U);
+
+  Synchronizer longer = makeSynchronizer(2, 0, 7);
+  std::size_t sets = 0;
+  for (std::int64_t frame = 1; frame <= 20; ++frame)
+  {
+    add(longer, 0, 100 * frame);
+    sets += frame > 6 && add(longer, 1, 100 * (frame - 6)) ? 1 : 0;
+  }
+  EXPECT_EQ(sets, 14U);
+}
+
+TEST(ViewSynchronizerLateMessages, AreForgottenWhenTimeJumpsBack)
+{
+  Synchronizer synchronizer = makeSynchronizer(2, 0, 1);
+  add(synchronizer, 0, 100);
+  add(synchronizer, 0, 200);  // drops the set of 100
+  add(synchronizer, 1, 200);
+  add(synchronizer, 0, 100);
+  EXPECT_TRUE(add(synchronizer, 1, 100)) << "the bag begins anew";
+}
+
 }  // namespace
 }  // namespace light_field_depth

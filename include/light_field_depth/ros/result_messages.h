@@ -42,6 +42,13 @@ StereoPair stereoPair(const std_msgs::Header& header, const Calibration& calibra
 /// A 32FC1 image. @param values CV_32FC1
 sensor_msgs::ImagePtr floatImageMessage(const std_msgs::Header& header, const cv::Mat& values);
 
+/// Depth as a 16UC1 image in millimetres (REP 118): 0 where unknown or beyond 65.535 m. @param depth_m
+/// CV_32FC1
+sensor_msgs::ImagePtr millimetreImageMessage(const std_msgs::Header& header, const cv::Mat& depth_m);
+
+/// Confidence as a mono8 image, 255 for 1, for consumers that take an intensity. @param confidence CV_32FC1
+sensor_msgs::ImagePtr confidenceMono8Message(const std_msgs::Header& header, const cv::Mat& confidence);
+
 /// The disparity in colours (bgr8, blue is far, red is near, from the lowest to the highest of the range
 /// that was searched), for eyes only.
 sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header,
