@@ -2,12 +2,13 @@
 
 #include <utility>
 
+#include <cv_bridge/cv_bridge.h>
 #include <ros/console.h>
 #include <ros/time.h>
-#include <boost/make_shared.hpp>
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/ros/result_messages.h"
+#include "light_field_depth/ros/view_messages.h"
 #include "ros/input_report.h"
 
 namespace light_field_depth
@@ -27,16 +28,25 @@ std::size_t queueCapacity(const NodeParameters& parameters)
   return parameters.keep_all ? static_cast<std::size_t>(parameters.keep_all_limit) : 1;
 }
 
-/// The image itself, or a copy when the results have another frame than the cameras say.
-sensor_msgs::ImageConstPtr withHeader(const sensor_msgs::ImageConstPtr& image, const std_msgs::Header& header)
+/// The image that a view has in the light field: the message that came, if it is that, or a new one.
+sensor_msgs::ImageConstPtr imageMessageOf(const ViewImage& received, const cv::Mat& used,
+                                          const std_msgs::Header& header)
 {
-  if (image->header.frame_id == header.frame_id)
+  const sensor_msgs::ImageConstPtr& raw = received.raw();
+  if (raw != nullptr && raw->data.data() == used.data && raw->header.frame_id == header.frame_id)
   {
-    return image;
+    return raw;
   }
-  const auto copy = boost::make_shared<sensor_msgs::Image>(*image);
-  copy->header = header;
-  return copy;
+  return cv_bridge::CvImage(header, encodingOf(used), used).toImageMsg();
+}
+
+AssemblerOptions assemblerOptions(const NodeParameters& parameters)
+{
+  AssemblerOptions options;
+  options.use_camera_info = parameters.use_camera_info;
+  options.rectify = parameters.rectify;
+  options.decimation = parameters.decimation;
+  return options;
 }
 
 void addTimes(const FrameReport& report, const PipelineResult& result, LightFieldDepthStats& stats)
@@ -87,8 +97,9 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
       input_(
           node_handle, private_node_handle, parameters_,
           [this](FrameSet set) { queue_.push(std::move(set)); }, [this] { queue_.setHeldBack(false); }),
-      assembler_(parameters_.array, parameters_.calibration, parameters_.use_camera_info),
-      pipeline_(parameters_.threads), result_watch_(parameters_.check_order),
+      pipeline_(parameters_.threads),
+      assembler_(parameters_.array, parameters_.calibration, assemblerOptions(parameters_), pipeline_.pool()),
+      result_watch_(parameters_.check_order),
       health_(parameters_.array, parameters_.queue_size, parameters_.health)
 {
   for (const std::string& warning : parameters_.warnings)
@@ -279,7 +290,7 @@ void DepthNode::Implementation::dropUncalibratedViews(
   std::vector<bool> known(infos.size());
   for (std::size_t view = 0; view < infos.size(); ++view)
   {
-    known[view] = set.images[view] != nullptr && infos[view] != nullptr;
+    known[view] = set.images[view] && infos[view] != nullptr;
   }
   if (!parameters_.use_camera_info || !input_.quorum().isEnough(known))
   {
@@ -287,12 +298,12 @@ void DepthNode::Implementation::dropUncalibratedViews(
   }
   for (std::size_t view = 0; view < infos.size(); ++view)
   {
-    if (set.images[view] != nullptr && infos[view] == nullptr)
+    if (set.images[view] && infos[view] == nullptr)
     {
       diagnostics_.warn(describe(parameters_.array.views[view]) + ": no CameraInfo has come on '" +
                         parameters_.array.views[view].camera_info +
                         "', so its images are not used; publish it.");
-      set.images[view] = nullptr;
+      set.images[view] = ViewImage();
     }
   }
 }
@@ -305,9 +316,9 @@ void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscri
   report.taken = std::chrono::steady_clock::now();
   const std::vector<sensor_msgs::CameraInfoConstPtr> infos = input_.cameraInfos();
   dropUncalibratedViews(set, infos);
-  for (const sensor_msgs::ImageConstPtr& image : set.images)
+  for (const ViewImage& image : set.images)
   {
-    report.used_by_view.push_back(image != nullptr);
+    report.used_by_view.push_back(static_cast<bool>(image));
   }
   const LightField light_field = assembler_.assemble(set.images, infos);
   for (const std::string& warning : assembler_.warnings())
@@ -316,7 +327,7 @@ void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscri
   }
   report.assembled = std::chrono::steady_clock::now();
 
-  std_msgs::Header header = set.images[parameters_.array.reference]->header;
+  std_msgs::Header header = set.images[parameters_.array.reference].header();
   if (!parameters_.frame_id.empty())
   {
     header.frame_id = parameters_.frame_id;
@@ -329,7 +340,11 @@ void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscri
   }
   const auto products = std::make_shared<FrameProducts>(compute(light_field, *settings, header, subscribers));
   products->info = assembler_.referenceInfo();
-  products->image = withHeader(set.images[parameters_.array.reference], header);
+  if (subscribers.reference_image)
+  {
+    products->image =
+        imageMessageOf(set.images[parameters_.array.reference], light_field.reference().image, header);
+  }
   report.computed = std::chrono::steady_clock::now();
   publication_.run([this, products, report] { publishSafely(*products, report); });
   if (const auto doubts = result_watch_.look(light_field, products->result.estimate, report.computed))

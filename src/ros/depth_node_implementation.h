@@ -79,8 +79,8 @@ private:
   SettingsServer settings_;
   FrameQueue queue_;
   ViewInput input_;
-  LightFieldAssembler assembler_;  ///< used by the worker alone
   Pipeline pipeline_;              ///< used by the worker alone, but for cancel()
+  LightFieldAssembler assembler_;  ///< used by the worker alone; works on the pipeline's threads
   ResultWatch result_watch_;       ///< used by the worker alone
   MessagePool<sensor_msgs::PointCloud2> organized_clouds_;
   MessagePool<sensor_msgs::PointCloud2> dense_clouds_;

@@ -10,14 +10,14 @@
 #include <optional>
 #include <vector>
 
-#include <sensor_msgs/Image.h>
+#include "ros/view_image.h"
 
 namespace light_field_depth
 {
 /// One whole set of images, held by pointers.
 struct FrameSet
 {
-  std::vector<sensor_msgs::ImageConstPtr> images;  ///< in the order of the views
+  std::vector<ViewImage> images;  ///< in the order of the views; none where one is missing
   std::int64_t stamp_spread_ns = 0;
   std::chrono::steady_clock::time_point arrival;  ///< of the last image
 };

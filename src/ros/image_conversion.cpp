@@ -7,6 +7,7 @@
 
 #include <sensor_msgs/image_encodings.h>
 #include <boost/endian/conversion.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/error.h"
@@ -28,9 +29,13 @@ struct Encoding
   int conversion;
 };
 
+/// What older versions of sensor_msgs have no name for.
+const std::string YUV422_YUY2 = "yuv422_yuy2";
+
+// OpenCV names a Bayer pattern by its second row's second and third pixel, ROS by its first row.
 const Encoding* findEncoding(const std::string& name)
 {
-  static const std::array<Encoding, 14> known = {{
+  static const std::array<Encoding, 24> known = {{
       {encodings::MONO8, CV_8UC1, NO_CONVERSION},
       {encodings::TYPE_8UC1, CV_8UC1, NO_CONVERSION},
       {encodings::BGR8, CV_8UC3, NO_CONVERSION},
@@ -45,6 +50,16 @@ const Encoding* findEncoding(const std::string& name)
       {encodings::RGB16, CV_16UC3, cv::COLOR_RGB2BGR},
       {encodings::BGRA16, CV_16UC4, cv::COLOR_BGRA2BGR},
       {encodings::RGBA16, CV_16UC4, cv::COLOR_RGBA2BGR},
+      {encodings::BAYER_RGGB8, CV_8UC1, cv::COLOR_BayerBG2BGR},
+      {encodings::BAYER_BGGR8, CV_8UC1, cv::COLOR_BayerRG2BGR},
+      {encodings::BAYER_GBRG8, CV_8UC1, cv::COLOR_BayerGR2BGR},
+      {encodings::BAYER_GRBG8, CV_8UC1, cv::COLOR_BayerGB2BGR},
+      {encodings::BAYER_RGGB16, CV_16UC1, cv::COLOR_BayerBG2BGR},
+      {encodings::BAYER_BGGR16, CV_16UC1, cv::COLOR_BayerRG2BGR},
+      {encodings::BAYER_GBRG16, CV_16UC1, cv::COLOR_BayerGR2BGR},
+      {encodings::BAYER_GRBG16, CV_16UC1, cv::COLOR_BayerGB2BGR},
+      {encodings::YUV422, CV_8UC2, cv::COLOR_YUV2BGR_UYVY},
+      {YUV422_YUY2, CV_8UC2, cv::COLOR_YUV2BGR_YUY2},
   }};
   const auto* const found = std::find_if(known.begin(), known.end(),
                                          [&](const Encoding& encoding) { return encoding.name == name; });
@@ -79,11 +94,10 @@ void checkLayout(const sensor_msgs::Image& message, const Encoding& encoding, co
                      encoding.name + " need " + std::to_string(needed) +
                      "; the message is truncated, correct the driver or the bag.");
   }
-  if (CV_ELEM_SIZE1(encoding.type) > 1 && (message.is_bigendian != 0) != hostIsBigEndian())
+  if (encoding.type == CV_8UC2 && message.width % 2 != 0)
   {
-    throw InputError(
-        view_name + ": is_bigendian is " + std::to_string(message.is_bigendian) +
-        ", but this machine has the other byte order; publish 16-bit images in the machine's own.");
+    throw InputError(view_name + ": the image is " + std::to_string(message.width) + " pixels wide, but " +
+                     encoding.name + " has pixels in pairs; correct the driver.");
   }
 }
 
@@ -99,6 +113,27 @@ cv::Mat converted(const cv::Mat& image, const Encoding& encoding)
   return result;
 }
 
+/// A copy with the two bytes of every value swapped.
+cv::Mat byteSwapped(const cv::Mat& image)
+{
+  cv::Mat swapped = image.clone();
+  const int values = swapped.cols * swapped.channels();
+  for (int y = 0; y < swapped.rows; ++y)
+  {
+    auto* const row = swapped.ptr<std::uint16_t>(y);
+    std::transform(row, row + values, row,
+                   [](std::uint16_t value) { return boost::endian::endian_reverse(value); });
+  }
+  return swapped;
+}
+
+/// @return the image itself, sharing its pixels, where its bytes are in the order of this machine
+cv::Mat inHostOrder(const cv::Mat& image, const sensor_msgs::Image& message)
+{
+  const bool swapped = image.elemSize1() > 1 && (message.is_bigendian != 0) != hostIsBigEndian();
+  return swapped ? byteSwapped(image) : image;
+}
+
 }  // namespace
 
 cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name)
@@ -107,8 +142,7 @@ cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& v
   if (encoding == nullptr)
   {
     throw InputError(view_name + ": the image's encoding is '" + message.encoding +
-                     "'; publish rectified images in mono8, mono16, bgr8, rgb8, bgr16 or rgb16 (debayer raw "
-                     "images first).");
+                     "'; publish images in mono, bgr(a), rgb(a) or Bayer of 8 or 16 bits, or in yuv422.");
   }
   checkLayout(message, *encoding, view_name);
   // cv::Mat knows no constant memory; what is returned is only read.
@@ -122,11 +156,35 @@ cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& v
       std::memcpy(aligned.ptr(y), data + static_cast<std::size_t>(y) * message.step,
                   static_cast<std::size_t>(aligned.cols) * aligned.elemSize());
     }
-    return converted(aligned, *encoding);
+    return converted(inHostOrder(aligned, message), *encoding);
   }
   cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type, data,
                  message.step);
-  return converted(shared, *encoding);
+  return converted(inHostOrder(shared, message), *encoding);
+}
+
+cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std::string& view_name)
+{
+  // Where an image should be turned is for those who look at it; the calibration knows the pixels as they
+  // are.
+  cv::Mat image;
+  if (!message.data.empty())
+  {
+    image =
+        cv::imdecode(message.data, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+  }
+  if (image.empty() || (image.depth() != CV_8U && image.depth() != CV_16U))
+  {
+    throw InputError(view_name + ": the compressed image of " + std::to_string(message.data.size()) +
+                     " bytes and the format '" + message.format +
+                     "' cannot be decoded; publish JPEG or PNG of 8 or 16 bits.");
+  }
+  const Encoding* const original = findEncoding(message.format.substr(0, message.format.find(';')));
+  if (original != nullptr && encodings::isBayer(original->name) && image.channels() == 1)
+  {
+    return converted(image, *original);
+  }
+  return image;
 }
 
 }  // namespace light_field_depth

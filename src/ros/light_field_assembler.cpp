@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/ros/image_conversion.h"
 #include "ros/camera_info.h"
@@ -17,40 +19,121 @@ std::string sizeText(std::uint32_t width, std::uint32_t height)
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
+/// The middle of the first pixel is 0 before and after.
+double decimated(double coordinate_px, int decimation)
+{
+  return (coordinate_px + 0.5) / decimation - 0.5;
+}
+
+sensor_msgs::CameraInfo decimated(sensor_msgs::CameraInfo info, int decimation)
+{
+  info.width /= static_cast<std::uint32_t>(decimation);
+  info.height /= static_cast<std::uint32_t>(decimation);
+  if (isUncalibrated(info))
+  {
+    return info;
+  }
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    const bool principal_point = i % 4 == 2;
+    info.P[i] = principal_point ? decimated(info.P[i], decimation) : info.P[i] / decimation;
+  }
+  info.K = {info.P[0], 0.0, info.P[2], 0.0, info.P[5], info.P[6], 0.0, 0.0, 1.0};
+  return info;
+}
+
+CalibrationParameters decimated(CalibrationParameters parameters, int decimation)
+{
+  parameters.focal_length_px /= decimation;
+  parameters.disparity_offset_px /= decimation;
+  if (parameters.principal_point_px)
+  {
+    parameters.principal_point_px->x = decimated(parameters.principal_point_px->x, decimation);
+    parameters.principal_point_px->y = decimated(parameters.principal_point_px->y, decimation);
+  }
+  return parameters;
+}
+
+cv::Mat decimated(const cv::Mat& image, int decimation)
+{
+  const cv::Size size(image.cols / decimation, image.rows / decimation);
+  cv::Mat reduced;
+  // Whole blocks only: a border that fills no block is left out.
+  cv::resize(image({0, 0, size.width * decimation, size.height * decimation}), reduced, size, 0.0, 0.0,
+             cv::INTER_AREA);
+  return reduced;
+}
+
 }  // namespace
 
 LightFieldAssembler::LightFieldAssembler(ViewArray array, CalibrationParameters parameters,
-                                         bool use_camera_info)
-    : array_(std::move(array)), parameters_(parameters), use_camera_info_(use_camera_info)
+                                         const AssemblerOptions& options, ThreadPool& pool)
+    : array_(std::move(array)), parameters_(decimated(parameters, options.decimation)), options_(options),
+      pool_(pool)
 {
 }
 
-LightField LightFieldAssembler::assemble(const std::vector<sensor_msgs::ImageConstPtr>& images,
+LightField LightFieldAssembler::assemble(const std::vector<ViewImage>& images,
                                          const std::vector<sensor_msgs::CameraInfoConstPtr>& infos)
 {
   checkPresent(images, infos);
+  std::vector<cv::Mat> pixels = decode(images);
+  updateCalibration(infos, pixels[array_.reference].size() / options_.decimation);
+  checkSizes(pixels);
+  rectify(pixels);
   std::vector<View> views;
-  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < array_.views.size(); ++i)
   {
-    if (images[i] != nullptr)
+    if (images[i])
     {
       View view;
       view.grid = array_.views[i].grid;
-      view.image = imageFromMessage(*images[i], describe(array_.views[i]));
+      view.image = pixels[i];
+      view.steps = views_[i].steps;
+      view.offset_px = views_[i].offset_px;
       views.push_back(std::move(view));
-      indices.push_back(i);
     }
   }
-  const sensor_msgs::Image& reference = *images[array_.reference];
-  updateCalibration(infos, {static_cast<int>(reference.width), static_cast<int>(reference.height)});
-  checkSizes(images);
-  for (std::size_t i = 0; i < views.size(); ++i)
-  {
-    views[i].steps = views_[indices[i]].steps;
-    views[i].offset_px = views_[indices[i]].offset_px;
-  }
   return makeLightField(std::move(views), array_.views[array_.reference].grid, calibration_);
+}
+
+std::vector<cv::Mat> LightFieldAssembler::decode(const std::vector<ViewImage>& images) const
+{
+  std::vector<cv::Mat> pixels(images.size());
+  pool_.parallelFor(0, static_cast<int>(images.size()), 1,
+                    [&](int first, int /*last*/)
+                    {
+                      const auto i = static_cast<std::size_t>(first);
+                      if (images[i])
+                      {
+                        const std::string name = describe(array_.views[i]);
+                        pixels[i] = images[i].raw() != nullptr
+                                        ? imageFromMessage(*images[i].raw(), name)
+                                        : imageFromMessage(*images[i].compressed(), name);
+                      }
+                    });
+  return pixels;
+}
+
+void LightFieldAssembler::rectify(std::vector<cv::Mat>& images) const
+{
+  pool_.parallelFor(0, static_cast<int>(images.size()), 1,
+                    [&](int first, int /*last*/)
+                    {
+                      cv::Mat& image = images[static_cast<std::size_t>(first)];
+                      const auto camera = std::find_if(cameras_.begin(), cameras_.end(),
+                                                       [first](const KnownCamera& known) {
+                                                         return known.view == static_cast<std::size_t>(first);
+                                                       });
+                      if (!image.empty() && camera != cameras_.end())
+                      {
+                        image = camera->rectifier.apply(image);
+                      }
+                      if (!image.empty() && options_.decimation > 1)
+                      {
+                        image = decimated(image, options_.decimation);
+                      }
+                    });
 }
 
 sensor_msgs::CameraInfo LightFieldAssembler::referenceInfo() const
@@ -61,7 +144,7 @@ sensor_msgs::CameraInfo LightFieldAssembler::referenceInfo() const
   sensor_msgs::CameraInfo info;
   if (reference != cameras_.end())
   {
-    info = reference->delivered;
+    info = decimated(reference->rectifier.rectified(), options_.decimation);
     info.P[3] = 0.0;
     info.P[7] = 0.0;
   }
@@ -80,7 +163,7 @@ sensor_msgs::CameraInfo LightFieldAssembler::referenceInfo() const
 void LightFieldAssembler::updateCalibration(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos,
                                             const cv::Size& image_size)
 {
-  const bool current = use_camera_info_ ? isCurrent(infos) : image_size == image_size_;
+  const bool current = options_.use_camera_info ? isCurrent(infos) : image_size == image_size_;
   if (!views_.empty() && current)
   {
     return;
@@ -89,7 +172,7 @@ void LightFieldAssembler::updateCalibration(const std::vector<sensor_msgs::Camer
   cameras_.clear();
   warnings_.clear();
   image_size_ = image_size;
-  if (use_camera_info_)
+  if (options_.use_camera_info)
   {
     calibrate(infos);
   }
@@ -105,8 +188,9 @@ void LightFieldAssembler::updateCalibration(const std::vector<sensor_msgs::Camer
 
 void LightFieldAssembler::calibrate(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos)
 {
+  const double focal_length_px = ofDeliveredImage(*infos[array_.reference]).P[0];
   std::vector<GridPosition> grid;
-  std::vector<sensor_msgs::CameraInfo> delivered;
+  std::vector<sensor_msgs::CameraInfo> plane;
   std::size_t reference = 0;
   for (std::size_t i = 0; i < infos.size(); ++i)
   {
@@ -114,11 +198,13 @@ void LightFieldAssembler::calibrate(const std::vector<sensor_msgs::CameraInfoCon
     {
       reference = i == array_.reference ? grid.size() : reference;
       grid.push_back(array_.views[i].grid);
-      cameras_.push_back({i, *infos[i], ofDeliveredImage(*infos[i])});
-      delivered.push_back(cameras_.back().delivered);
+      cameras_.push_back({i, *infos[i],
+                          ViewRectifier(ofDeliveredImage(*infos[i]), options_.rectify, focal_length_px,
+                                        describe(array_.views[i]))});
+      plane.push_back(decimated(cameras_.back().rectifier.rectified(), options_.decimation));
     }
   }
-  const ArrayCalibration found = calibrationFromCameraInfo(grid, delivered, reference, parameters_);
+  const ArrayCalibration found = calibrationFromCameraInfo(grid, plane, reference, parameters_);
   calibration_ = found.calibration;
   views_.resize(array_.views.size());
   for (std::size_t i = 0; i < cameras_.size(); ++i)
@@ -135,7 +221,7 @@ void LightFieldAssembler::warnOfRawImages()
   std::vector<std::size_t> raw;
   for (const KnownCamera& camera : cameras_)
   {
-    if (isDistortedOrTurned(camera.received) &&
+    if (!options_.rectify && isDistortedOrTurned(camera.received) &&
         array_.views[camera.view].image.find("rect") == std::string::npos)
     {
       raw.push_back(camera.view);
@@ -152,19 +238,19 @@ void LightFieldAssembler::warnOfRawImages()
   }
 }
 
-void LightFieldAssembler::checkPresent(const std::vector<sensor_msgs::ImageConstPtr>& images,
+void LightFieldAssembler::checkPresent(const std::vector<ViewImage>& images,
                                        const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const
 {
-  if (images[array_.reference] == nullptr)
+  if (!images[array_.reference])
   {
     throw InputError(
         describe(array_.views[array_.reference]) +
         ": no image of the reference view, to which every result belongs; bring this camera back, "
         "or name another one as 'reference' of the array.");
   }
-  for (std::size_t i = 0; use_camera_info_ && i < images.size(); ++i)
+  for (std::size_t i = 0; options_.use_camera_info && i < images.size(); ++i)
   {
-    if (images[i] != nullptr && infos[i] == nullptr)
+    if (images[i] && infos[i] == nullptr)
     {
       throw InputError(describe(array_.views[i]) + ": no CameraInfo is known; publish it on '" +
                        array_.views[i].camera_info + "'.");
@@ -186,16 +272,18 @@ bool LightFieldAssembler::isCurrent(const std::vector<sensor_msgs::CameraInfoCon
                                                  });
 }
 
-void LightFieldAssembler::checkSizes(const std::vector<sensor_msgs::ImageConstPtr>& images) const
+void LightFieldAssembler::checkSizes(const std::vector<cv::Mat>& images) const
 {
   for (const KnownCamera& camera : cameras_)
   {
-    const sensor_msgs::ImageConstPtr& image = images[camera.view];
-    const sensor_msgs::CameraInfo& info = camera.delivered;
-    if (image != nullptr && (image->width != info.width || image->height != info.height))
+    const cv::Mat& image = images[camera.view];
+    const sensor_msgs::CameraInfo& info = camera.rectifier.rectified();
+    const cv::Size expected(static_cast<int>(info.width), static_cast<int>(info.height));
+    if (!image.empty() && image.size() != expected)
     {
       throw InputError(
-          describe(array_.views[camera.view]) + ": the image is " + sizeText(image->width, image->height) +
+          describe(array_.views[camera.view]) + ": the image is " +
+          sizeText(static_cast<std::uint32_t>(image.cols), static_cast<std::uint32_t>(image.rows)) +
           " pixels, but its CameraInfo says " + sizeText(info.width, info.height) +
           ", binning and region of interest included; publish the CameraInfo that belongs to the "
           "image.");

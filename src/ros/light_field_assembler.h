@@ -7,32 +7,47 @@
 #include <vector>
 
 #include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
+#include <opencv2/core.hpp>
 
 #include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/thread_pool.h"
 #include "light_field_depth/ros/calibration_from_camera_info.h"
 #include "light_field_depth/ros/view_array.h"
+#include "ros/view_image.h"
+#include "ros/view_rectifier.h"
 
 namespace light_field_depth
 {
-/// Makes light fields of whole sets of messages. Keeps the calibration until a CameraInfo changes. Used by
-/// one thread at a time.
+struct AssemblerOptions
+{
+  /// false: the calibration comes from the parameters alone.
+  bool use_camera_info = true;
+
+  /// true: the images are raw, and are rectified by their CameraInfo.
+  bool rectify = false;
+
+  /// Views are reduced to one pixel for so many by so many.
+  int decimation = 1;
+};
+
+/// Makes light fields of whole sets of messages: decodes, rectifies and reduces the images, on the threads of
+/// a pool. Keeps the calibration until a CameraInfo changes. Used by one thread at a time.
 class LightFieldAssembler
 {
 public:
-  /// @param use_camera_info false: the calibration comes from the parameters alone
-  LightFieldAssembler(ViewArray array, CalibrationParameters parameters, bool use_camera_info);
+  LightFieldAssembler(ViewArray array, CalibrationParameters parameters, const AssemblerOptions& options,
+                      ThreadPool& pool);
 
-  /// The images are shared with the messages where their encoding allows: the light field is to be used while
-  /// they live. It has the views that have an image.
-  /// @param images one for each view of the array, null where a camera is missing, which is not the reference
+  /// The images are shared with the messages where nothing has to be changed: the light field is to be used
+  /// while they live. It has the views that have an image.
+  /// @param images one for each view of the array, none where a camera is missing, which is not the reference
   /// @param infos  one for each view, null where none is known; not looked at when use_camera_info is false
   /// @throw InputError
-  LightField assemble(const std::vector<sensor_msgs::ImageConstPtr>& images,
+  LightField assemble(const std::vector<ViewImage>& images,
                       const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
 
-  /// The camera of the reference image of the last light field: its CameraInfo without binning, region of
-  /// interest and baseline, or what the parameters say of it. Zeros when it is not calibrated.
+  /// The camera of the reference view of the last light field: its CameraInfo without binning, region of
+  /// interest, distortion and baseline, or what the parameters say of it. Zeros when it is not calibrated.
   sensor_msgs::CameraInfo referenceInfo() const;
 
   /// Whole sentences about the calibration in use; they change only when the calibration does.
@@ -44,21 +59,24 @@ private:
   {
     std::size_t view;
     sensor_msgs::CameraInfo received;
-    sensor_msgs::CameraInfo delivered;
+    ViewRectifier rectifier;
   };
 
   void updateCalibration(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos,
                          const cv::Size& image_size);
   void calibrate(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
   void warnOfRawImages();
-  void checkPresent(const std::vector<sensor_msgs::ImageConstPtr>& images,
+  void checkPresent(const std::vector<ViewImage>& images,
                     const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
-  void checkSizes(const std::vector<sensor_msgs::ImageConstPtr>& images) const;
+  void checkSizes(const std::vector<cv::Mat>& images) const;
+  std::vector<cv::Mat> decode(const std::vector<ViewImage>& images) const;
+  void rectify(std::vector<cv::Mat>& images) const;
   bool isCurrent(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
 
   ViewArray array_;
   CalibrationParameters parameters_;
-  bool use_camera_info_;
+  AssemblerOptions options_;
+  ThreadPool& pool_;
   std::vector<KnownCamera> cameras_;        ///< that the calibration was made of
   std::optional<Calibration> calibration_;  ///< absent when depth is unknown
   std::vector<ViewGeometry> views_;         ///< of every view of the array; empty: to be found anew

@@ -19,6 +19,7 @@ namespace
 constexpr double MAX_TOLERANCE_S = 10.0;
 constexpr int MAX_QUEUE = 10000;
 constexpr int MAX_THREADS = 1024;
+constexpr int MAX_DECIMATION = 16;
 constexpr double MAX_SECONDS = 1e6;
 
 template <class T>
@@ -162,7 +163,15 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   reader.read("lazy", parameters.lazy);
   reader.readInRange("threads", 0, MAX_THREADS, parameters.threads);
   reader.read("frame_id", parameters.frame_id);
-  if (reader.read("image_transport", parameters.image_transport))
+  reader.read("rectify", parameters.rectify);
+  reader.readInRange("decimation", 1, MAX_DECIMATION, parameters.decimation);
+  if (parameters.rectify && !parameters.use_camera_info)
+  {
+    throw InputError(
+        "rectify is true, but use_camera_info is false; views are rectified by their CameraInfo.");
+  }
+  if (reader.read("image_transport", parameters.image_transport) &&
+      parameters.image_transport != COMPRESSED_TRANSPORT)
   {
     checkTransport(private_node_handle, parameters.image_transport);
   }

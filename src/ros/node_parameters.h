@@ -12,6 +12,9 @@
 
 namespace light_field_depth
 {
+/// JPEG and PNG on the topic below the image's, which this package decodes itself.
+const std::string COMPRESSED_TRANSPORT = "compressed";
+
 /// What is read once, when the node starts. Each field is a private parameter of the same name, without the
 /// unit. What may change later is in config/LightFieldDepth.cfg.
 struct NodeParameters
@@ -46,12 +49,18 @@ struct NodeParameters
   /// `frame_id` of the results; that of the reference image when empty.
   std::string frame_id;
 
-  /// `image_transport` of the views.
+  /// `image_transport` of the views. COMPRESSED_TRANSPORT needs no plugin.
   std::string image_transport = "raw";
 
   /// `check_order`: whether the places of the views are held against the images of the first frames. Only
   /// warns.
   bool check_order = true;
+
+  /// `rectify`: the images are raw; each view is rectified by K, D, R and P of its CameraInfo.
+  bool rectify = false;
+
+  /// `decimation`: views are reduced to one pixel for so many by so many.
+  int decimation = 1;
 
   /// `patience`, in seconds: how long without a whole set until a warning says what is missing.
   double patience_s = 5.0;

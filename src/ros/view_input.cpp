@@ -43,7 +43,7 @@ ViewInput::~ViewInput()
 
 void ViewInput::subscribe()
 {
-  if (image_subscribers_.empty())
+  if (image_subscribers_.empty() && compressed_subscribers_.empty())
   {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -61,11 +61,23 @@ void ViewInput::subscribeTo(std::size_t view)
   const ViewTopics& topics = parameters_.array.views[view];
   const auto queue_size = static_cast<std::uint32_t>(parameters_.queue_size);
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  const boost::function<void(const sensor_msgs::ImageConstPtr&)> on_image =
-      [this, view](const sensor_msgs::ImageConstPtr& image) { imageCallback(view, image); };
-  image_subscribers_.push_back(image_transport_.subscribe(
-      topics.image, queue_size, on_image, ros::VoidPtr(),
-      image_transport::TransportHints(parameters_.image_transport, hints, private_node_handle_)));
+  if (parameters_.image_transport == COMPRESSED_TRANSPORT)
+  {
+    // Not by the plugin, which would decode in the callback, one image after the other.
+    const boost::function<void(const sensor_msgs::CompressedImageConstPtr&)> on_image =
+        [this, view](const sensor_msgs::CompressedImageConstPtr& image) { imageCallback(view, image); };
+    compressed_subscribers_.push_back(node_handle_.subscribe<sensor_msgs::CompressedImage>(
+        node_handle_.resolveName(topics.image) + "/" + COMPRESSED_TRANSPORT, queue_size, on_image,
+        ros::VoidPtr(), hints));
+  }
+  else
+  {
+    const boost::function<void(const sensor_msgs::ImageConstPtr&)> on_image =
+        [this, view](const sensor_msgs::ImageConstPtr& image) { imageCallback(view, image); };
+    image_subscribers_.push_back(image_transport_.subscribe(
+        topics.image, queue_size, on_image, ros::VoidPtr(),
+        image_transport::TransportHints(parameters_.image_transport, hints, private_node_handle_)));
+  }
   if (parameters_.use_camera_info)
   {
     const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> on_info =
@@ -85,7 +97,12 @@ void ViewInput::unsubscribe()
   {
     subscriber.shutdown();
   }
+  for (ros::Subscriber& subscriber : compressed_subscribers_)
+  {
+    subscriber.shutdown();
+  }
   image_subscribers_.clear();
+  compressed_subscribers_.clear();
   info_subscribers_.clear();
   const std::lock_guard<std::mutex> lock(mutex_);
   synchronizer_.reset();
@@ -172,14 +189,14 @@ ViewSynchronizerStatistics ViewInput::statistics() const
   return synchronizer_.statistics();
 }
 
-void ViewInput::imageCallback(std::size_t view, const sensor_msgs::ImageConstPtr& image)
+void ViewInput::imageCallback(std::size_t view, const ViewImage& image)
 {
   std::vector<Synchronizer::Set> sets;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     heard_[view] = std::chrono::steady_clock::now();
     given_up_[view] = false;
-    auto set = synchronizer_.add(view, static_cast<std::int64_t>(image->header.stamp.toNSec()), image);
+    auto set = synchronizer_.add(view, static_cast<std::int64_t>(image.header().stamp.toNSec()), image);
     for (; set; set = synchronizer_.next())
     {
       sets.push_back(std::move(*set));

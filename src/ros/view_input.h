@@ -13,10 +13,10 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 
 #include "ros/frame_queue.h"
 #include "ros/node_parameters.h"
+#include "ros/view_image.h"
 #include "ros/view_quorum.h"
 #include "ros/view_synchronizer.h"
 
@@ -54,12 +54,12 @@ public:
   ViewSynchronizerStatistics statistics() const;
 
 private:
-  using Synchronizer = ViewSynchronizer<sensor_msgs::ImageConstPtr>;
+  using Synchronizer = ViewSynchronizer<ViewImage>;
 
   void subscribeTo(std::size_t view);
   void deliver(std::vector<Synchronizer::Set> sets);
   bool isCalibrated() const;
-  void imageCallback(std::size_t view, const sensor_msgs::ImageConstPtr& image);
+  void imageCallback(std::size_t view, const ViewImage& image);
   void cameraInfoCallback(std::size_t view, const sensor_msgs::CameraInfoConstPtr& info);
 
   ros::NodeHandle node_handle_;
@@ -70,6 +70,7 @@ private:
   CalibratedCallback on_calibrated_;
   image_transport::ImageTransport image_transport_;
   std::vector<image_transport::Subscriber> image_subscribers_;
+  std::vector<ros::Subscriber> compressed_subscribers_;
   std::vector<ros::Subscriber> info_subscribers_;
 
   mutable std::mutex mutex_;  ///< guards what follows

@@ -11,8 +11,6 @@
 
 namespace light_field_depth
 {
-namespace
-{
 const std::string& encodingOf(const cv::Mat& image)
 {
   namespace encodings = sensor_msgs::image_encodings;
@@ -28,8 +26,6 @@ const std::string& encodingOf(const cv::Mat& image)
       return encodings::BGR8;
   }
 }
-
-}  // namespace
 
 std::vector<ViewMessages> viewMessages(const LightField& light_field, const Calibration& calibration,
                                        const std_msgs::Header& header, const TopicPatterns& topics)

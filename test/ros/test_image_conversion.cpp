@@ -100,12 +100,105 @@ TEST(ImageConversion, UnderstandsRowsThatBeginBetweenTwoValues)
   EXPECT_EQ(difference(imageFromMessage(odd, "View (0, 0)"), image), 0.0);
 }
 
+TEST(ImageConversion, SwapsBytesOfTheOtherOrder)
+{
+  for (const int type : {CV_16UC1, CV_16UC3})
+  {
+    const cv::Mat image = pattern(type);
+    sensor_msgs::Image swapped = message(type == CV_16UC1 ? encodings::MONO16 : encodings::BGR16, image);
+    swapped.is_bigendian = swapped.is_bigendian != 0 ? 0 : 1;
+    for (std::size_t i = 0; i + 1 < swapped.data.size(); i += 2)
+    {
+      std::swap(swapped.data[i], swapped.data[i + 1]);
+    }
+    EXPECT_EQ(difference(imageFromMessage(swapped, "View (0, 0)"), image), 0.0);
+  }
+}
+
+/// A red, a green and a blue stripe, wide enough that demosaicking does not mix them in their middle.
+cv::Mat stripes(int depth)
+{
+  cv::Mat image = cv::Mat::zeros(24, 36, CV_MAKETYPE(depth, 3));
+  const double full = depth == CV_8U ? 200 : 50000;
+  image.colRange(0, 12).setTo(cv::Scalar(0, 0, full));
+  image.colRange(12, 24).setTo(cv::Scalar(0, full, 0));
+  image.colRange(24, 36).setTo(cv::Scalar(full, 0, 0));
+  return image;
+}
+
+/// What a sensor with a Bayer pattern sees of an image. @param pattern the colours of the first two rows
+template <class Value>
+cv::Mat mosaic(const cv::Mat& image, const std::string& pattern)
+{
+  cv::Mat raw(image.size(), CV_MAKETYPE(image.depth(), 1));
+  for (int y = 0; y < raw.rows; ++y)
+  {
+    for (int x = 0; x < raw.cols; ++x)
+    {
+      const char colour = pattern[static_cast<std::size_t>(2 * (y % 2) + x % 2)];
+      const int channel = colour == 'b' ? 0 : colour == 'g' ? 1 : 2;
+      raw.at<Value>(y, x) = image.ptr<Value>(y)[3 * x + channel];
+    }
+  }
+  return raw;
+}
+
+void expectStripes(const cv::Mat& converted, const cv::Mat& image)
+{
+  ASSERT_EQ(converted.type(), image.type());
+  for (const int first : {2, 14, 26})
+  {
+    const cv::Rect middle(first, 2, 8, 20);
+    EXPECT_EQ(cv::norm(converted(middle), image(middle), cv::NORM_INF), 0.0) << first;
+  }
+}
+
+TEST(ImageConversion, DemosaicksEveryBayerPattern)
+{
+  for (const char* const pattern : {"rggb", "bggr", "gbrg", "grbg"})
+  {
+    const std::string name = std::string("bayer_") + pattern;
+    const cv::Mat image = stripes(CV_8U);
+    sensor_msgs::Image raw = message(encodings::MONO8, mosaic<std::uint8_t>(image, pattern));
+    raw.encoding = name + "8";
+    expectStripes(imageFromMessage(raw, name), image);
+    const cv::Mat deep = stripes(CV_16U);
+    raw = message(encodings::MONO16, mosaic<std::uint16_t>(deep, pattern));
+    raw.encoding = name + "16";
+    expectStripes(imageFromMessage(raw, name), deep);
+  }
+}
+
+TEST(ImageConversion, ReadsYuv422)
+{
+  cv::Mat grey(20, 30, CV_8UC2, cv::Scalar(128, 180));  // U or V, then Y
+  sensor_msgs::Image uyvy = message(encodings::TYPE_8UC2, grey);
+  uyvy.encoding = encodings::YUV422;
+  const cv::Mat converted = imageFromMessage(uyvy, "View (0, 0)");
+  ASSERT_EQ(converted.type(), CV_8UC3);
+  EXPECT_NEAR(converted.at<cv::Vec3b>(3, 3)[1], (180 - 16) * 255 / 219, 1);
+  grey.setTo(cv::Scalar(180, 128));
+  sensor_msgs::Image yuyv = message(encodings::TYPE_8UC2, grey);
+  yuyv.encoding = "yuv422_yuy2";
+  EXPECT_EQ(difference(imageFromMessage(yuyv, "View (0, 0)"), converted), 0.0);
+}
+
+TEST(ImageConversion, RefusesWhatCannotBeDecoded)
+{
+  sensor_msgs::CompressedImage message;
+  message.format = "jpeg";
+  expectSentence([&] { imageFromMessage(message, "View (1, 2)"); }, {"View (1, 2)", "0 bytes", "'jpeg'"});
+  message.data.assign(100, 7);
+  expectSentence([&] { imageFromMessage(message, "View (1, 2)"); },
+                 {"View (1, 2)", "100 bytes", "JPEG or PNG"});
+}
+
 TEST(ImageConversion, NamesViewAndFieldOfWhatCannotBeUsed)
 {
   const sensor_msgs::Image good = message(encodings::MONO8, pattern(CV_8UC1));
-  sensor_msgs::Image bayer = good;
-  bayer.encoding = encodings::BAYER_RGGB8;
-  expectSentence([&] { imageFromMessage(bayer, "View (1, 2)"); }, {"View (1, 2)", "bayer_rggb8", "debayer"});
+  sensor_msgs::Image floats = good;
+  floats.encoding = encodings::TYPE_32FC1;
+  expectSentence([&] { imageFromMessage(floats, "View (1, 2)"); }, {"View (1, 2)", "32FC1", "yuv422"});
   sensor_msgs::Image truncated = good;
   truncated.data.resize(100);
   expectSentence([&] { imageFromMessage(truncated, "View (1, 2)"); },
@@ -119,9 +212,6 @@ TEST(ImageConversion, NamesViewAndFieldOfWhatCannotBeUsed)
   sensor_msgs::Image huge = good;
   huge.height = 4000000000U;
   expectSentence([&] { imageFromMessage(huge, "View (1, 2)"); }, {"View (1, 2)", "4000000000"});
-  sensor_msgs::Image swapped = message(encodings::MONO16, pattern(CV_16UC1));
-  swapped.is_bigendian = swapped.is_bigendian != 0 ? 0 : 1;
-  expectSentence([&] { imageFromMessage(swapped, "View (1, 2)"); }, {"View (1, 2)", "is_bigendian"});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <boost/make_shared.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "expect_sentence.h"
 #include "light_field_depth/ros/view_messages.h"
@@ -55,9 +56,15 @@ LightField assemble(LightFieldAssembler& assembler, const Messages& input)
                             {input.infos.begin(), input.infos.end()});
 }
 
-LightFieldAssembler assemblerFor(const Messages& input)
+ThreadPool& pool()
 {
-  return {input.array, {}, true};
+  static ThreadPool threads(2);
+  return threads;
+}
+
+LightFieldAssembler assemblerFor(const Messages& input, const AssemblerOptions& options = {})
+{
+  return {input.array, {}, options, pool()};
 }
 
 TEST(LightFieldAssembler, MakesTheLightFieldThatWasPublished)
@@ -135,9 +142,57 @@ TEST(LightFieldAssembler, TakesParametersInPlaceOfCameraInfo)
   CalibrationParameters parameters;
   parameters.focal_length_px = 70.0;
   parameters.baseline_x_m = 0.3;
-  LightFieldAssembler assembler(input.array, parameters, false);
+  AssemblerOptions options;
+  options.use_camera_info = false;
+  LightFieldAssembler assembler(input.array, parameters, options, pool());
   const LightField light_field = assembler.assemble({input.images.begin(), input.images.end()}, {});
   EXPECT_DOUBLE_EQ(light_field.calibration->baseline_m, 0.3);
+}
+
+TEST(LightFieldAssembler, GoesOnWithoutAViewThatIsMissing)
+{
+  Messages input = messages();
+  LightFieldAssembler assembler = assemblerFor(input);
+  const LightField whole = assemble(assembler, input);
+  input.images[0] = nullptr;
+  const LightField partial = assemble(assembler, input);
+  ASSERT_EQ(partial.views.size(), 8U);
+  EXPECT_EQ(partial.reference().grid, whole.reference().grid);
+  EXPECT_EQ(partial.views[7].steps, whole.views[8].steps);
+  input.images[4] = nullptr;
+  expectSentence([&] { assemble(assembler, input); }, {"View (1, 1)", "reference"});
+}
+
+TEST(LightFieldAssembler, ReducesViewsAndTheirCalibration)
+{
+  const Messages input = messages();
+  AssemblerOptions options;
+  options.decimation = 2;
+  LightFieldAssembler assembler = assemblerFor(input, options);
+  const LightField light_field = assemble(assembler, input);
+  EXPECT_EQ(light_field.size(), cv::Size(20, 15));
+  EXPECT_NEAR(light_field.calibration->focal_length_px, 25.0, 1e-9);
+  EXPECT_NEAR(light_field.calibration->disparity_offset_px, 2.0, 1e-9);
+  EXPECT_NEAR(light_field.calibration->principal_point_px.x, (19.5 + 0.5) / 2 - 0.5, 1e-9);
+  EXPECT_NEAR(light_field.calibration->baseline_m, 0.1, 1e-9);
+  EXPECT_EQ(assembler.referenceInfo().width, 20U);
+}
+
+TEST(LightFieldAssembler, DecodesCompressedImages)
+{
+  const Messages input = messages();
+  LightFieldAssembler assembler = assemblerFor(input);
+  const LightField raw = assemble(assembler, input);
+  std::vector<ViewImage> compressed;
+  for (const View& view : raw.views)
+  {
+    const auto message = boost::make_shared<sensor_msgs::CompressedImage>();
+    message->format = "bgr8; png compressed bgr8";
+    cv::imencode(".png", view.image, message->data);
+    compressed.emplace_back(sensor_msgs::CompressedImageConstPtr(message));
+  }
+  const LightField decoded = assembler.assemble(compressed, {input.infos.begin(), input.infos.end()});
+  EXPECT_EQ(cv::norm(decoded.views[3].image, raw.views[3].image, cv::NORM_INF), 0.0);
 }
 
 }  // namespace

@@ -138,8 +138,8 @@ TEST_F(DepthNodeTest, PublishesNothingFromImagesThatDoNotFit)
   array.image(2).data.resize(100);
   EXPECT_TRUE(publishUntil(array, [&] { return diagnosed(diagnostics, {"View (0, 2)", "truncated"}); }));
   array.image(2) = good;
-  array.image(2).encoding = "bayer_rggb8";
-  EXPECT_TRUE(publishUntil(array, [&] { return diagnosed(diagnostics, {"View (0, 2)", "bayer_rggb8"}); }));
+  array.image(2).encoding = "32FC1";
+  EXPECT_TRUE(publishUntil(array, [&] { return diagnosed(diagnostics, {"View (0, 2)", "32FC1"}); }));
   EXPECT_EQ(disparity.count(), 0U);
 }
 

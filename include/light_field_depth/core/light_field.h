@@ -119,8 +119,10 @@ ViewSelection viewSelectionFromString(const std::string& name);
 /// @throw InputError if fewer than two views remain.
 LightField selectViews(const LightField& light_field, ViewSelection selection);
 
-/// The same light field with 8-bit images. Images of 16 bits are scaled by one factor that is common to all
-/// views: the smallest power of two that holds the brightest value. Images of 8 bits are shared.
+/// The same light field with 8-bit images. Images of 16 bits are scaled by one rule that is common to all
+/// views: the smallest power of two that holds all but the brightest thousandth of the values becomes 255,
+/// and 0 stays 0; where the values fill less than a quarter of that, as those of a thermal camera do, a
+/// window about them is spread instead. Images of 8 bits are shared.
 LightField toEightBit(const LightField& light_field);
 
 /// The brightness of a grey or BGR image. @return the image itself, sharing its pixels, if it is grey

@@ -96,6 +96,9 @@ public:
 
   int threads() const { return pool_.threads(); }  ///< the caller's included
 
+  /// Its threads, for other work between two runs, by the thread that runs.
+  ThreadPool& pool() { return pool_; }
+
   /// Receives intermediate results and progress of the following runs.
   void setIntermediateSink(IntermediateSink sink) { intermediate_sink_ = std::move(sink); }
   void setProgressSink(ProgressSink sink) { progress_sink_ = std::move(sink); }  ///< likewise

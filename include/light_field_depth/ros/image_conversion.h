@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
 
@@ -10,13 +11,21 @@ namespace light_field_depth
 {
 /// The image of a view, of a type that View::image allows.
 ///
-/// mono8, 8UC1, bgr8, 8UC3, mono16, 16UC1, bgr16 and 16UC3 share the memory of the message: they are to be
-/// read only, and only while the message lives. rgb8, rgb16, rgba and bgra are copied into BGR.
+/// mono8, 8UC1, bgr8, 8UC3, mono16, 16UC1, bgr16 and 16UC3 in the machine's byte order share the memory of
+/// the message: they are to be read only, and only while the message lives. The rest is copied: rgb, rgba and
+/// bgra of 8 and 16 bits, the four Bayer patterns of 8 and 16 bits (demosaicked bilinearly), yuv422 (UYVY)
+/// and yuv422_yuy2 into BGR; 16 bits of the other byte order.
 ///
 /// @param view_name begins the sentence of an error
-/// @throw InputError for an empty image, another encoding, a step or an amount of data that does not fit the
-///   size, or 16 bits in the other byte order
+/// @throw InputError for an empty image, another encoding, or a step or an amount of data that does not fit
+/// the
+///   size
 cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name);
+
+/// The same of a JPEG or PNG, as image_transport's compressed topics have them. A Bayer pattern that its
+/// format names is demosaicked.
+/// @throw InputError for data that cannot be decoded
+cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std::string& view_name);
 
 }  // namespace light_field_depth
 

@@ -7,6 +7,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <std_msgs/Header.h>
+#include <opencv2/core.hpp>
 
 #include "light_field_depth/core/light_field.h"
 
@@ -27,6 +28,9 @@ struct TopicPatterns
   std::string image = "view_{row}_{column}/image_rect_color";   ///< of the image
   std::string camera_info = "view_{row}_{column}/camera_info";  ///< of its CameraInfo
 };
+
+/// The encoding of an image of the types that View::image allows.
+const std::string& encodingOf(const cv::Mat& image);
 
 /// A light field as a camera array would publish it: rectified images (mono8, bgr8, mono16, bgr16) and the
 /// CameraInfo of each view, all with the same header.

@@ -278,30 +278,6 @@ LightField selectViews(const LightField& light_field, ViewSelection selection)
   return selected;
 }
 
-LightField toEightBit(const LightField& light_field)
-{
-  LightField result = light_field;
-  if (light_field.reference().image.depth() == CV_8U)
-  {
-    return result;
-  }
-  double brightest = 1.0;
-  for (const View& view : light_field.views)
-  {
-    double maximum = 0.0;
-    cv::minMaxIdx(view.image.reshape(1), nullptr, &maximum);
-    brightest = std::max(brightest, maximum);
-  }
-  const double full_scale = std::max(256.0, std::exp2(std::ceil(std::log2(brightest + 1.0))));
-  for (View& view : result.views)
-  {
-    cv::Mat eight_bit;
-    view.image.convertTo(eight_bit, CV_8U, 255.0 / (full_scale - 1.0));
-    view.image = eight_bit;
-  }
-  return result;
-}
-
 cv::Mat toGrey(const cv::Mat& image)
 {
   if (image.channels() == 1)

@@ -142,5 +142,32 @@ TEST(LightField, RefusesASelectionWhoseViewsStandAtOnePlace)
   EXPECT_THROW(selectViews(light_field, ViewSelection::Column), InputError);
 }
 
+TEST(ToEightBit, IsNotDecidedByTheBrightestPixel)
+{
+  cv::Mat image(64, 64, CV_16UC1, cv::Scalar(100));
+  image.colRange(0, 32).setTo(cv::Scalar(1000));
+  image.at<std::uint16_t>(8, 8) = 65535;
+  const LightField eight_bit = toEightBit(makeLightField({gridView(0, 0, image), gridView(0, 1, image)}));
+  EXPECT_NEAR(eight_bit.views[0].image.at<std::uint8_t>(3, 3), 1000 * 255.0 / 1023, 0.51);
+  EXPECT_EQ(eight_bit.views[0].image.at<std::uint8_t>(8, 8), 255);
+}
+
+TEST(ToEightBit, SpreadsANarrowRange)
+{
+  cv::Mat image(64, 64, CV_16UC1);
+  for (int y = 0; y < image.rows; ++y)
+  {
+    for (int x = 0; x < image.cols; ++x)
+    {
+      image.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(51241 + 940 * x / 63);
+    }
+  }
+  const LightField eight_bit = toEightBit(makeLightField({gridView(0, 0, image), gridView(0, 1, image)}));
+  const cv::Mat& shown = eight_bit.views[1].image;
+  EXPECT_GT(shown.at<std::uint8_t>(5, 63) - shown.at<std::uint8_t>(5, 0), 190) << "as a thermal camera's";
+  EXPECT_GT(shown.at<std::uint8_t>(5, 0), 0);
+  EXPECT_LT(shown.at<std::uint8_t>(5, 63), 255);
+}
+
 }  // namespace
 }  // namespace light_field_depth

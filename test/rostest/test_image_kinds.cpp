@@ -1,0 +1,122 @@
+// Images as drivers publish them.
+
+#include <cv_bridge/cv_bridge.h>
+#include <gtest/gtest.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/image_encodings.h>
+#include <stereo_msgs/DisparityImage.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "array_fixture.h"
+#include "light_field_depth/LightFieldDepthStats.h"
+
+namespace light_field_depth::testing
+{
+namespace
+{
+using ImageKindsTest = ArrayFixture;
+using DisparityListener = Listener<stereo_msgs::DisparityImage>;
+
+cv::Mat pixelsOf(const stereo_msgs::DisparityImage& disparity)
+{
+  return cv_bridge::toCvCopy(disparity.image)->image;
+}
+
+cv::Mat pixelsOf(const sensor_msgs::Image& image)
+{
+  return cv_bridge::toCvCopy(image)->image;
+}
+
+TEST_F(ImageKindsTest, CompressedTopicsGiveTheSameAsRawOnes)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), {64, 48});
+  ArrayPublisher array(*array_space_, scene.light_field);
+  startNode(scene.light_field);
+  cv::Mat expected;
+  {
+    const DisparityListener disparity(*node_space_, "disparity");
+    ASSERT_TRUE(publishUntil(array, [&] { return disparity.count() > 0; }));
+    expected = pixelsOf(*disparity.newest());
+  }
+  node_.reset();
+  setParameter("image_transport", std::string("compressed"));
+  startNode(scene.light_field);
+  std::vector<ros::Publisher> publishers;
+  std::vector<sensor_msgs::CompressedImage> images(3);
+  for (std::size_t view = 0; view < 3; ++view)
+  {
+    publishers.push_back(array_space_->advertise<sensor_msgs::CompressedImage>(
+        "view_0_" + std::to_string(view) + "/image_rect_color/compressed", 5));
+    images[view].format = "bgr8; png compressed bgr8";
+    cv::imencode(".png", pixelsOf(array.image(view)), images[view].data);
+  }
+  const DisparityListener disparity(*node_space_, "disparity");
+  EXPECT_TRUE(waitFor(
+      [&]
+      {
+        array.publishInfos(nextStamp(), [](std::size_t) { return true; });
+        for (std::size_t view = 0; view < 3; ++view)
+        {
+          images[view].header.stamp = stamp_;
+          images[view].header.frame_id = "array_optical_frame";
+          publishers[view].publish(images[view]);
+        }
+        return waitFor([&] { return disparity.count() > 0; }, std::chrono::milliseconds(50));
+      }));
+  ASSERT_GT(disparity.count(), 0U);
+  EXPECT_EQ(cv::norm(pixelsOf(*disparity.newest()), expected, cv::NORM_INF), 0.0);
+}
+
+TEST_F(ImageKindsTest, BayerAndBigEndianImagesAreTaken)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), {64, 48});
+  ArrayPublisher array(*array_space_, scene.light_field);
+  for (std::size_t view = 0; view < 3; ++view)
+  {
+    cv::Mat deep;
+    cv::Mat grey;
+    cv::cvtColor(pixelsOf(array.image(view)), grey, cv::COLOR_BGR2GRAY);
+    grey.convertTo(deep, CV_16U, 256.0);
+    sensor_msgs::Image raw = *cv_bridge::CvImage({}, "mono16", deep).toImageMsg();
+    raw.encoding = sensor_msgs::image_encodings::BAYER_RGGB16;
+    raw.is_bigendian = raw.is_bigendian != 0 ? 0 : 1;
+    for (std::size_t i = 0; i + 1 < raw.data.size(); i += 2)
+    {
+      std::swap(raw.data[i], raw.data[i + 1]);
+    }
+    array.image(view) = raw;
+  }
+  startNode(scene.light_field);
+  const Listener<sensor_msgs::Image> reference(*node_space_, "left/image_rect_color");
+  const DisparityListener disparity(*node_space_, "disparity");
+  ASSERT_TRUE(publishUntil(array, [&] { return disparity.count() > 0 && reference.count() > 0; }));
+  EXPECT_EQ(reference.newest()->encoding, "bgr16") << "the image as it is used";
+}
+
+TEST_F(ImageKindsTest, RawImagesAreRectifiedAndReduced)
+{
+  const cv::Size size(128, 96);
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), size);
+  ArrayPublisher array(*array_space_, scene.light_field);
+  for (std::size_t view = 0; view < 3; ++view)
+  {
+    array.info(view).D[0] = 1e-9;  // next to no distortion, but one that has to be taken out
+  }
+  setParameter("rectify", true);
+  setParameter("decimation", 2);
+  startNode(scene.light_field);
+  const DisparityListener disparity(*node_space_, "disparity");
+  const Listener<sensor_msgs::Image> reference(*node_space_, "left/image_rect_color");
+  const Listener<sensor_msgs::CameraInfo> info(*node_space_, "camera_info");
+  ASSERT_TRUE(publishUntil(
+      array, [&] { return disparity.count() > 0 && reference.count() > 0 && info.count() > 0; }));
+  EXPECT_EQ(disparity.newest()->image.width, 64U);
+  EXPECT_NEAR(disparity.newest()->f, 0.5 * scene.light_field.calibration->focal_length_px, 1e-4);
+  EXPECT_EQ(reference.newest()->width, 64U);
+  EXPECT_EQ(info.newest()->width, 64U);
+  EXPECT_EQ(info.newest()->D[0], 0.0);
+}
+
+}  // namespace
+}  // namespace light_field_depth::testing
