@@ -64,7 +64,7 @@ int estimate(const lfd::EstimateArguments& arguments)
 {
   lfd::RunReport report;
   report.options = lfd::makeOptions(arguments);
-  lfd::outputOptions(arguments.output_files);
+  lfd::resultFileOptions(arguments.output_files);
   lfd::Pipeline pipeline(arguments.threads);
   cv::setNumThreads(pipeline.threads());
   const lfd::DatasetOptions options = lfd::makeDatasetOptions(arguments);

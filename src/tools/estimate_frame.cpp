@@ -74,7 +74,7 @@ Verdict judge(const Dataset& dataset, const DisparityEstimate& estimate, ThreadP
 bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& input, const FrameWork& frame,
                    Pipeline& pipeline, RunReport report)
 {
-  const OutputOptions output = outputOptions(arguments.output_files);
+  const ResultFileOptions output = resultFileOptions(arguments.output_files);
   const Dataset& dataset = input.dataset;
   report.decode_ms = input.decode_ms;
   describeInput(arguments.input, dataset, report);
@@ -101,7 +101,7 @@ bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& inpu
 
   guard.check();
   const Stopwatch write_watch;
-  writeResults(results.path(), result, dataset.light_field.reference().image, output, report);
+  writeResultFiles(results.path(), result, dataset.light_field.reference().image, output, report);
   report.write_ms = write_watch.milliseconds();
   report.peak_memory_mb = peakMemoryMb();
   writeFile(results.path() / "report.json", toJson(report));

@@ -1,16 +1,11 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_TOOLS_ESTIMATE_OUTPUT_H
 #define LIGHT_FIELD_DEPTH_SRC_TOOLS_ESTIMATE_OUTPUT_H
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "light_field_depth/core/pipeline.h"
-#include "light_field_depth/io/cloud_files.h"
-#include "light_field_depth/io/map_files.h"
-#include "light_field_depth/io/report.h"
+#include "light_field_depth/io/result_files.h"
 
 namespace light_field_depth
 {
@@ -24,21 +19,8 @@ struct OutputArguments
 
 void declareOutput(CLI::App& app, OutputArguments& arguments);
 
-/// The same, understood.
-struct OutputOptions
-{
-  std::vector<MapFormat> formats = {MapFormat::Pfm};
-  CloudAxes axes = CloudAxes::Optical;
-  bool preview = false;
-};
-
 /// @throw InputError
-OutputOptions outputOptions(const OutputArguments& arguments);
-
-/// Writes all maps, pictures and clouds of a result and lists them in the report, which itself comes last.
-/// @throw InputError if a file cannot be written
-void writeResults(const std::filesystem::path& folder, const PipelineResult& result, const cv::Mat& reference,
-                  const OutputOptions& options, RunReport& report);
+ResultFileOptions resultFileOptions(const OutputArguments& arguments);
 
 }  // namespace light_field_depth
 
