@@ -4,6 +4,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "light_field_depth/nodelets/result_saver.h"
 #include "light_field_depth/ros/depth_node.h"
 
 namespace light_field_depth
@@ -17,7 +18,7 @@ private:
   {
     try
     {
-      node_ = std::make_unique<DepthNode>(getNodeHandle(), getPrivateNodeHandle());
+      node_ = std::make_unique<DepthNode>(getNodeHandle(), getPrivateNodeHandle(), saveResult);
     }
     catch (const std::exception& error)
     {

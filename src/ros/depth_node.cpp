@@ -1,5 +1,6 @@
 #include "ros/depth_node_implementation.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <cv_bridge/cv_bridge.h>
@@ -7,9 +8,10 @@
 #include <ros/time.h>
 
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/geometry.h"
 #include "light_field_depth/ros/result_messages.h"
 #include "light_field_depth/ros/view_messages.h"
-#include "ros/input_report.h"
+#include "ros/view_frames.h"
 
 namespace light_field_depth
 {
@@ -47,6 +49,17 @@ AssemblerOptions assemblerOptions(const NodeParameters& parameters)
   options.rectify = parameters.rectify;
   options.decimation = parameters.decimation;
   return options;
+}
+
+void copyIfWanted(const std::vector<ColoredPoint>& points, bool wanted, const PointAllocator& room)
+{
+  if (wanted)
+  {
+    if (ColoredPoint* const copy = room(points.size()))
+    {
+      std::copy(points.begin(), points.end(), copy);
+    }
+  }
 }
 
 void addTimes(const FrameReport& report, const PipelineResult& result, LightFieldDepthStats& stats)
@@ -90,8 +103,9 @@ void addInputCounts(const ViewSynchronizerStatistics& input, LightFieldDepthStat
 }  // namespace
 
 DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
-                                          const ros::NodeHandle& private_node_handle)
-    : parameters_(readNodeParameters(private_node_handle)), diagnostics_(node_handle, private_node_handle),
+                                          const ros::NodeHandle& private_node_handle, ResultSaver saver)
+    : parameters_(readNodeParameters(private_node_handle)), saver_(std::move(saver)),
+      diagnostics_(node_handle, private_node_handle),
       settings_(private_node_handle, [this](const std::string& sentence) { diagnostics_.warn(sentence); }),
       queue_(queueCapacity(parameters_)),
       input_(
@@ -102,6 +116,11 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
       result_watch_(parameters_.check_order),
       health_(parameters_.array, parameters_.queue_size, parameters_.health)
 {
+  paused_ = parameters_.paused;
+  if (!parameters_.target_frame.empty())
+  {
+    cloud_transformer_ = std::make_unique<CloudTransformer>(parameters_.target_frame);
+  }
   for (const std::string& warning : parameters_.warnings)
   {
     diagnostics_.warn(warning);
@@ -113,9 +132,9 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
     results_ = std::make_unique<ResultPublisher>(private_node_handle, [this] { updateSubscriptions(); });
   }
   updateSubscriptions();
-  ros::NodeHandle services = private_node_handle;
-  reset_service_ = services.advertiseService("reset", &Implementation::reset, this);
-  watch_timer_ = services.createSteadyTimer(WATCH_PERIOD, &Implementation::watch, this);
+  advertiseServices(private_node_handle);
+  ros::NodeHandle timers = private_node_handle;
+  watch_timer_ = timers.createSteadyTimer(WATCH_PERIOD, &Implementation::watch, this);
   ROS_INFO_STREAM("Depth from " << parameters_.array.views.size() << " views, "
                                 << parameters_.array.views.front().image << " to "
                                 << parameters_.array.views.back().image << ", on " << pipeline_.threads()
@@ -134,7 +153,10 @@ DepthNode::Implementation::~Implementation()
   pipeline_.cancel();
   queue_.stop();
   watch_timer_.stop();
-  reset_service_.shutdown();
+  for (ros::ServiceServer& service : services_)
+  {
+    service.shutdown();
+  }
   input_.unsubscribe();
   publication_.stop();  // before the worker ends, which may be waiting for it
   worker_.join();
@@ -148,7 +170,7 @@ void DepthNode::Implementation::updateSubscriptions()
   {
     return;
   }
-  const bool wanted = !parameters_.lazy || results_->subscribers().any();
+  const bool wanted = once_ > 0 || (!paused_ && (!parameters_.lazy || results_->subscribers().any()));
   if (wanted && !subscribed_)
   {
     input_.subscribe();
@@ -159,100 +181,6 @@ void DepthNode::Implementation::updateSubscriptions()
     queue_.clear();
   }
   subscribed_ = wanted;
-}
-
-bool DepthNode::Implementation::reset(std_srvs::Empty::Request& /*request*/,
-                                      std_srvs::Empty::Response& /*response*/)
-{
-  // Subscribing anew brings a CameraInfo that its publisher latched, and would not publish again.
-  const std::lock_guard<std::mutex> lock(subscription_mutex_);
-  if (subscribed_)
-  {
-    input_.unsubscribe();
-  }
-  queue_.setHeldBack(parameters_.use_camera_info);
-  input_.forget();
-  queue_.clear();
-  forget_frames_ = true;
-  if (subscribed_ && !shutting_down_)
-  {
-    input_.subscribe();
-  }
-  return true;
-}
-
-void DepthNode::Implementation::watch(const ros::SteadyTimerEvent& /*event*/)
-{
-  bool listening = false;
-  {
-    const std::lock_guard<std::mutex> lock(subscription_mutex_);
-    listening = subscribed_;
-  }
-  const ViewSynchronizerStatistics heard = input_.statistics();
-  watchInput(listening, heard);
-  reportHealth(listening, heard);
-}
-
-void DepthNode::Implementation::watchInput(bool listening, const ViewSynchronizerStatistics& heard)
-{
-  if (listening)
-  {
-    const std::vector<std::size_t> silent = input_.giveUpSilentViews(parameters_.patience_s);
-    if (!silent.empty())
-    {
-      diagnostics_.warn(describeSilentViews(parameters_.array, silent, parameters_.patience_s));
-    }
-  }
-  const auto now = std::chrono::steady_clock::now();
-  const bool waiting_for_calibration =
-      parameters_.use_camera_info && queue_.waiting() > 0 && queue_.isHeldBack();
-  const bool got_set =
-      heard.sets_complete + heard.sets_partial != heard_before_.sets_complete + heard_before_.sets_partial;
-  if (!listening || (got_set && !waiting_for_calibration) || heard_before_.views.empty())
-  {
-    silent_since_ = now;
-    heard_before_ = heard;
-  }
-  const double silent_s = std::chrono::duration<double>(now - silent_since_).count();
-  if (silent_s >= parameters_.patience_s)
-  {
-    const auto infos =
-        parameters_.use_camera_info ? input_.cameraInfos() : std::vector<sensor_msgs::CameraInfoConstPtr>();
-    const std::string sentence = diagnoseMissingInput(parameters_.array, heard_before_, heard, infos,
-                                                      parameters_.patience_s, parameters_.queue_size);
-    if (!sentence.empty())
-    {
-      diagnostics_.error(sentence);
-    }
-    silent_since_ = now;
-    heard_before_ = heard;
-  }
-}
-
-void DepthNode::Implementation::reportHealth(bool listening, const ViewSynchronizerStatistics& heard)
-{
-  InputState state;
-  state.input = heard;
-  state.frames_dropped = queue_.dropped();
-  state.listening = listening;
-  if (listening)
-  {
-    health_.add(std::chrono::steady_clock::now(), heard, state.frames_dropped);
-    state.health = health_.report(diagnostics_.recentFrames().median_ms);
-  }
-  else
-  {
-    health_.forget();
-  }
-  for (std::size_t view = 0; view < heard.views.size(); ++view)
-  {
-    if (heard.views[view].missing > state.missing)
-    {
-      state.missing = heard.views[view].missing;
-      state.missing_topic = describe(parameters_.array.views[view]);
-    }
-  }
-  diagnostics_.update(state);
 }
 
 void DepthNode::Implementation::workerLoop()
@@ -268,9 +196,11 @@ void DepthNode::Implementation::processSafely(FrameSet set)
   try
   {
     const Subscribers subscribers = results_->subscribers();
-    if (subscribers.any())
+    const bool asked_for = once_ > 0;
+    if (asked_for || (!paused_ && subscribers.any()))
     {
       process(std::move(set), subscribers);
+      once_ -= asked_for ? 1 : 0;
     }
   }
   catch (const Cancelled&)
@@ -338,7 +268,14 @@ void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscri
   {
     pipeline_.forget();
   }
-  const auto products = std::make_shared<FrameProducts>(compute(light_field, *settings, header, subscribers));
+  {
+    const std::lock_guard<std::mutex> lock(last_set_mutex_);
+    last_set_ = set;
+  }
+  const bool save = save_.exchange(false);
+  const auto products =
+      std::make_shared<FrameProducts>(compute(light_field, *settings, header, subscribers, save));
+  broadcastViews(light_field, set, header);
   products->info = assembler_.referenceInfo();
   if (subscribers.reference_image)
   {
@@ -346,7 +283,15 @@ void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscri
         imageMessageOf(set.images[parameters_.array.reference], light_field.reference().image, header);
   }
   report.computed = std::chrono::steady_clock::now();
-  publication_.run([this, products, report] { publishSafely(*products, report); });
+  publication_.run(
+      [this, products, report, save, settings]
+      {
+        publishSafely(*products, report);
+        if (save)
+        {
+          saveSafely(*products, *settings);
+        }
+      });
   if (const auto doubts = result_watch_.look(light_field, products->result.estimate, report.computed))
   {
     diagnostics_.setDoubts(*doubts);
@@ -355,7 +300,7 @@ void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscri
 
 FrameProducts DepthNode::Implementation::compute(const LightField& light_field, const NodeSettings& settings,
                                                  const std_msgs::Header& header,
-                                                 const Subscribers& subscribers)
+                                                 const Subscribers& subscribers, bool everything)
 {
   FrameProducts products;
   products.header = header;
@@ -365,8 +310,8 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
   products.keep_filled = settings.pipeline.keep_filled;
 
   ProductRequest request;
-  request.depth = subscribers.depth || subscribers.depth_mm;
-  request.organized_cloud = subscribers.points2;
+  request.depth = everything || subscribers.depth || subscribers.depth_mm;
+  request.organized_cloud = everything || subscribers.points2;
   request.organized_cloud_allocator = leftOutWhenTooLarge(
       [&](std::size_t /*count*/)
       {
@@ -375,7 +320,7 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
         products.points2 = cloud;
         return points;
       });
-  request.dense_cloud = subscribers.points_dense && settings.dense_cloud;
+  request.dense_cloud = (everything || subscribers.points_dense) && settings.dense_cloud;
   request.dense_cloud_allocator = leftOutWhenTooLarge(
       [&](std::size_t count)
       {
@@ -384,7 +329,24 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
         products.points_dense = cloud;
         return points;
       });
-  products.result = pipeline_.run(light_field, settings.pipeline, request);
+  if (everything)
+  {
+    // Into the result, which is saved; listeners get a copy.
+    const PointAllocator points2 = std::exchange(request.organized_cloud_allocator, nullptr);
+    const PointAllocator points_dense = std::exchange(request.dense_cloud_allocator, nullptr);
+    products.result = pipeline_.run(light_field, settings.pipeline, request);
+    copyIfWanted(products.result.organized_cloud, subscribers.points2, points2);
+    copyIfWanted(products.result.dense_cloud, subscribers.points_dense && settings.dense_cloud, points_dense);
+  }
+  else
+  {
+    products.result = pipeline_.run(light_field, settings.pipeline, request);
+  }
+  if (products.calibration)
+  {
+    products.limited_disparity = limitDepth(products.result.estimate.disparity, *products.calibration,
+                                            settings.pipeline.min_depth_m, settings.pipeline.max_depth_m);
+  }
   return products;
 }
 
@@ -405,10 +367,63 @@ PointAllocator DepthNode::Implementation::leftOutWhenTooLarge(PointAllocator all
   };
 }
 
-void DepthNode::Implementation::publishSafely(const FrameProducts& products, FrameReport report)
+void DepthNode::Implementation::broadcastViews(const LightField& light_field, const FrameSet& set,
+                                               const std_msgs::Header& header)
+{
+  if (!parameters_.publish_tf || !light_field.calibration)
+  {
+    return;
+  }
+  std::vector<std::string> image_frames;
+  for (const ViewImage& image : set.images)
+  {
+    if (image)
+    {
+      image_frames.push_back(image.header().frame_id);
+    }
+  }
+  std::vector<geometry_msgs::TransformStamped> frames =
+      viewFrames(light_field, image_frames, header.frame_id);
+  if (frames != view_frames_)
+  {
+    view_frames_ = frames;
+    for (geometry_msgs::TransformStamped& frame : frames)
+    {
+      frame.header.stamp = header.stamp;
+    }
+    if (broadcaster_ == nullptr)
+    {
+      broadcaster_ = std::make_unique<tf2_ros::StaticTransformBroadcaster>();
+    }
+    broadcaster_->sendTransform(frames);
+  }
+}
+
+void DepthNode::Implementation::transformClouds(FrameProducts& products)
+{
+  if (cloud_transformer_ == nullptr)
+  {
+    return;
+  }
+  for (sensor_msgs::PointCloud2Ptr* const cloud : {&products.points2, &products.points_dense})
+  {
+    try
+    {
+      *cloud = *cloud != nullptr ? cloud_transformer_->transform(**cloud) : nullptr;
+    }
+    catch (const InputError& error)
+    {
+      cloud->reset();
+      diagnostics_.warn(error.what());
+    }
+  }
+}
+
+void DepthNode::Implementation::publishSafely(FrameProducts& products, FrameReport report)
 {
   try
   {
+    transformClouds(products);
     results_->publish(products);
     report.published = std::chrono::steady_clock::now();
     diagnostics_.framePublished(millisecondsBetween(report.arrived, report.published));
@@ -447,8 +462,9 @@ LightFieldDepthStats DepthNode::Implementation::statsOf(const FrameProducts& pro
   return stats;
 }
 
-DepthNode::DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle)
-    : implementation_(std::make_unique<Implementation>(node_handle, private_node_handle))
+DepthNode::DepthNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle,
+                     ResultSaver saver)
+    : implementation_(std::make_unique<Implementation>(node_handle, private_node_handle, std::move(saver)))
 {
 }
 

@@ -11,14 +11,19 @@
 #include <thread>
 #include <vector>
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 #include <ros/steady_timer.h>
 #include <std_srvs/Empty.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include "light_field_depth/core/pipeline.h"
 #include "light_field_depth/ros/depth_node.h"
 #include "ros/background_runner.h"
+#include "ros/cloud_transformer.h"
 #include "ros/frame_queue.h"
 #include "ros/input_health.h"
 #include "ros/light_field_assembler.h"
@@ -52,7 +57,8 @@ struct FrameReport
 class DepthNode::Implementation
 {
 public:
-  Implementation(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle);
+  Implementation(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle,
+                 ResultSaver saver);
   ~Implementation();
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -63,18 +69,27 @@ private:
   void watchInput(bool listening, const ViewSynchronizerStatistics& heard);
   void reportHealth(bool listening, const ViewSynchronizerStatistics& heard);
   void dropUncalibratedViews(FrameSet& set, const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
+
+  void advertiseServices(ros::NodeHandle node_handle);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+  bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool processOnce(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void saveSafely(const FrameProducts& products, const NodeSettings& settings);
 
   void workerLoop();
   void processSafely(FrameSet set);
   void process(FrameSet set, const Subscribers& subscribers);
   FrameProducts compute(const LightField& light_field, const NodeSettings& settings,
-                        const std_msgs::Header& header, const Subscribers& subscribers);
+                        const std_msgs::Header& header, const Subscribers& subscribers, bool everything);
   PointAllocator leftOutWhenTooLarge(PointAllocator allocator);
-  void publishSafely(const FrameProducts& products, FrameReport report);
+  void broadcastViews(const LightField& light_field, const FrameSet& set, const std_msgs::Header& header);
+  void transformClouds(FrameProducts& products);
+  void publishSafely(FrameProducts& products, FrameReport report);
   LightFieldDepthStats statsOf(const FrameProducts& products, const FrameReport& report) const;
 
   const NodeParameters parameters_;
+  const ResultSaver saver_;
   NodeDiagnostics diagnostics_;
   SettingsServer settings_;
   FrameQueue queue_;
@@ -89,10 +104,20 @@ private:
   bool subscribed_ = false;
   bool shutting_down_ = false;
   std::unique_ptr<ResultPublisher> results_;
-  BackgroundRunner publication_;
+  std::unique_ptr<CloudTransformer>
+      cloud_transformer_;  ///< used by publication_ alone; null without target_frame
+  std::vector<geometry_msgs::TransformStamped>
+      view_frames_;  ///< that were sent last; used by the worker alone
+  std::unique_ptr<tf2_ros::StaticTransformBroadcaster> broadcaster_;
   std::atomic<bool> forget_frames_{false};  ///< before the next one
+  std::atomic<bool> paused_{false};
+  std::atomic<int> once_{0};       ///< sets that are worked on whoever listens, and even while paused
+  std::atomic<bool> save_{false};  ///< the next result
+  std::mutex last_set_mutex_;      ///< guards last_set_
+  FrameSet last_set_;              ///< that was worked on
+  BackgroundRunner publication_;   ///< after what its jobs use
 
-  ros::ServiceServer reset_service_;
+  std::vector<ros::ServiceServer> services_;
   ros::SteadyTimer watch_timer_;
   std::chrono::steady_clock::time_point silent_since_;  ///< used by watch() alone
   ViewSynchronizerStatistics heard_before_;             ///< at silent_since_

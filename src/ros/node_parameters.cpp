@@ -163,6 +163,10 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   reader.read("lazy", parameters.lazy);
   reader.readInRange("threads", 0, MAX_THREADS, parameters.threads);
   reader.read("frame_id", parameters.frame_id);
+  reader.read("target_frame", parameters.target_frame);
+  reader.read("publish_tf", parameters.publish_tf);
+  reader.read("paused", parameters.paused);
+  reader.read("save_directory", parameters.save_directory);
   reader.read("rectify", parameters.rectify);
   reader.readInRange("decimation", 1, MAX_DECIMATION, parameters.decimation);
   if (parameters.rectify && !parameters.use_camera_info)

@@ -62,6 +62,18 @@ struct NodeParameters
   /// `decimation`: views are reduced to one pixel for so many by so many.
   int decimation = 1;
 
+  /// `target_frame`: tf brings the clouds into it; empty: they stay in the frame of the reference view.
+  std::string target_frame;
+
+  /// `publish_tf`: static transforms from the frame of the reference view to the other views.
+  bool publish_tf = false;
+
+  /// `paused`: begin paused; the service ~pause changes it.
+  bool paused = false;
+
+  /// `save_directory`: the service ~save writes to a folder below it.
+  std::string save_directory;
+
   /// `patience`, in seconds: how long without a whole set until a warning says what is missing.
   double patience_s = 5.0;
 

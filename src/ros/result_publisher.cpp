@@ -96,8 +96,10 @@ void ResultPublisher::publish(const FrameProducts& products) const
   }
   if (subscribers.disparity)
   {
-    disparity_.publish(disparityMessage(header, result.estimate, products.calibration,
-                                        products.min_confidence, products.keep_filled));
+    DisparityEstimate shown = result.estimate;
+    shown.disparity = products.limited_disparity.empty() ? shown.disparity : products.limited_disparity;
+    disparity_.publish(
+        disparityMessage(header, shown, products.calibration, products.min_confidence, products.keep_filled));
   }
   if (subscribers.disparity_color)
   {

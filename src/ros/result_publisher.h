@@ -50,6 +50,7 @@ struct FrameProducts
   float min_confidence = 0.0F;
   bool keep_filled = false;
   PipelineResult result;
+  cv::Mat limited_disparity;  ///< that of the result with NaN beyond the limits of depth; may be empty
   sensor_msgs::PointCloud2Ptr points2;       ///< null when nobody wants it, or it cannot be had
   sensor_msgs::PointCloud2Ptr points_dense;  ///< likewise
   sensor_msgs::CameraInfo info;              ///< of the reference view's image

@@ -6,6 +6,7 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 
+#include "light_field_depth/nodelets/result_saver.h"
 #include "light_field_depth/ros/depth_node.h"
 
 namespace
@@ -27,7 +28,8 @@ int main(int argc, char** argv)
   std::signal(SIGHUP, requestShutdown);
   try
   {
-    const light_field_depth::DepthNode node(ros::NodeHandle(), ros::NodeHandle("~"));
+    const light_field_depth::DepthNode node(ros::NodeHandle(), ros::NodeHandle("~"),
+                                            light_field_depth::saveResult);
     ros::spin();
   }
   catch (const std::exception& error)

@@ -152,7 +152,7 @@ void ArrayFixture::TearDown()
   spinner_->stop();
 }
 
-void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns& patterns)
+void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns& patterns, ResultSaver saver)
 {
   XmlRpc::XmlRpcValue array;
   for (std::size_t i = 0; i < light_field.views.size(); ++i)
@@ -165,7 +165,7 @@ void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns&
     view["camera_info"] = topicFromPattern(patterns.camera_info, grid);
   }
   node_space_->setParam("array", array);
-  node_ = std::make_unique<DepthNode>(*array_space_, *node_space_);
+  node_ = std::make_unique<DepthNode>(*array_space_, *node_space_, std::move(saver));
 }
 
 ros::Time ArrayFixture::nextStamp()

@@ -110,7 +110,8 @@ protected:
   void TearDown() override;
 
   /// Starts the node on an array: the parameter `array` lists the given views.
-  void startNode(const LightField& light_field, const TopicPatterns& patterns = {});
+  void startNode(const LightField& light_field, const TopicPatterns& patterns = {},
+                 ResultSaver saver = nullptr);
 
   template <class Value>
   void setParameter(const std::string& name, const Value& value)

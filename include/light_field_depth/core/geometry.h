@@ -17,6 +17,13 @@ float disparityFromDepth(float depth_m, const Calibration& calibration);
 /// CV_32FC1 disparity -> CV_32FC1 depth in metres, NaN where unknown.
 cv::Mat depthMap(const cv::Mat& disparity, const Calibration& calibration);
 
+/// The disparities with NaN where the depth is below the one limit or above the other. @param disparity
+/// CV_32FC1
+/// @param min_depth_m, max_depth_m 0: no limit
+/// @return the map itself where there is no limit, else a copy
+cv::Mat limitDepth(const cv::Mat& disparity, const Calibration& calibration, float min_depth_m,
+                   float max_depth_m);
+
 }  // namespace light_field_depth
 
 #endif  // LIGHT_FIELD_DEPTH_CORE_GEOMETRY_H

@@ -86,6 +86,8 @@ void visitOptions(Options& options, Visitor&& visit)
   visit("views", options.views);
   visit("min_confidence", options.min_confidence);
   visit("keep_filled", options.keep_filled);
+  visit("min_depth_m", options.min_depth_m);
+  visit("max_depth_m", options.max_depth_m);
   visit("dense_cloud_min_confidence", options.dense_cloud.min_confidence);
   visit("dense_cloud_voxel_size_m", options.dense_cloud.voxel_size_m);
   visitPaper2017Options(options.paper2017, visit);

@@ -53,6 +53,10 @@ struct PipelineOptions
   /// cloud never does, as its least confidence is above 0.
   bool keep_filled = false;
   DenseCloudOptions dense_cloud;  ///< for the extra cloud of all views
+  /// Limits of depth, metres; 0: none. Beyond them depth and clouds have NaN. Set them to what a robot has to
+  /// do with: its own parts in front of the cameras, or a far background that only costs.
+  float min_depth_m = 0.0F;
+  float max_depth_m = 0.0F;  ///< likewise
 };
 
 /// One whole sentence for each option that cannot be used; empty when all can.

@@ -40,4 +40,28 @@ cv::Mat depthMap(const cv::Mat& disparity, const Calibration& calibration)
   return depth;
 }
 
+cv::Mat limitDepth(const cv::Mat& disparity, const Calibration& calibration, float min_depth_m,
+                   float max_depth_m)
+{
+  if (min_depth_m <= 0.0F && max_depth_m <= 0.0F)
+  {
+    return disparity;
+  }
+  constexpr float UNLIMITED = std::numeric_limits<float>::infinity();
+  const float nearest = min_depth_m > 0.0F ? disparityFromDepth(min_depth_m, calibration) : UNLIMITED;
+  const float farthest = max_depth_m > 0.0F ? disparityFromDepth(max_depth_m, calibration) : -UNLIMITED;
+  cv::Mat limited(disparity.size(), CV_32FC1);
+  for (int y = 0; y < disparity.rows; ++y)
+  {
+    const float* const given = disparity.ptr<float>(y);
+    float* const out = limited.ptr<float>(y);
+    for (int x = 0; x < disparity.cols; ++x)
+    {
+      const bool within = given[x] >= farthest && given[x] <= nearest;
+      out[x] = within ? given[x] : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return limited;
+}
+
 }  // namespace light_field_depth

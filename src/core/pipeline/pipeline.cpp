@@ -98,6 +98,13 @@ std::vector<std::string> validate(const PipelineOptions& options)
     problems.push_back("min_confidence is " + std::to_string(options.min_confidence) +
                        "; it must be between 0 and 1.");
   }
+  if (!(options.min_depth_m >= 0.0F && options.max_depth_m >= 0.0F) ||
+      (options.max_depth_m > 0.0F && options.max_depth_m <= options.min_depth_m))
+  {
+    problems.push_back("min_depth_m is " + std::to_string(options.min_depth_m) + " and max_depth_m is " +
+                       std::to_string(options.max_depth_m) +
+                       "; give the smaller first, in metres, or 0 for no limit.");
+  }
   append(problems, validate(options.dense_cloud));
   append(problems, validate(options.paper2017));
   append(problems, validate(options.multiview));
@@ -152,10 +159,13 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
     trust = trust.clone();
     trust.setTo(BELOW_EVERY_CONFIDENCE, estimate.filled);
   }
+  const auto limited = [&](const cv::Mat& disparity)
+  { return limitDepth(disparity, *light_field.calibration, options.min_depth_m, options.max_depth_m); };
+  const cv::Mat disparity = limited(estimate.disparity);
   if (request.depth)
   {
     const StageTimer timer(context, "depth");
-    result.depth = depthMap(estimate.disparity, *light_field.calibration);
+    result.depth = depthMap(disparity, *light_field.calibration);
     result.depth.setTo(std::nan(""), trust < options.min_confidence);
   }
   if (request.organized_cloud)
@@ -166,12 +176,16 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
         allocatorOr(request.organized_cloud_allocator, result.organized_cloud)(count);
     if (points != nullptr)
     {
-      unprojectReference(light_field, estimate.disparity, trust, options.min_confidence, pool_, points);
+      unprojectReference(light_field, disparity, trust, options.min_confidence, pool_, points);
     }
   }
   if (request.dense_cloud)
   {
     const StageTimer timer(context, "dense_cloud");
+    for (ViewDisparity& map : result.estimate.view_disparities)
+    {
+      map.disparity = limited(map.disparity);
+    }
     denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_,
                allocatorOr(request.dense_cloud_allocator, result.dense_cloud));
     result.estimate.view_disparities.clear();  // so that the next frame may have their memory
