@@ -5,13 +5,14 @@
 #include "light_field_depth/io/files.h"
 #include "light_field_depth/io/report.h"
 #include "light_field_depth/io/result_files.h"
+#include "light_field_depth/io/result_folder.h"
 
 namespace light_field_depth
 {
 void saveResult(const ResultToSave& saved)
 {
-  const std::filesystem::path folder = saved.folder;
-  makeFolder(folder);
+  makeFolder(std::filesystem::path(saved.folder).parent_path());
+  ResultFolder folder(saved.folder);
   RunReport report;
   report.input = saved.source;
   report.format = "ROS topics";
@@ -29,8 +30,9 @@ void saveResult(const ResultToSave& saved)
   report.stage_times = saved.result.stage_times;
   report.total_ms = saved.result.total_ms;
   report.peak_memory_mb = peakMemoryMb();
-  writeResultFiles(folder, saved.result, cv::Mat(), ResultFileOptions(), report);
-  writeFile(folder / "report.json", toJson(report));
+  writeResultFiles(folder.path(), saved.result, cv::Mat(), ResultFileOptions(), report);
+  writeFile(folder.path() / "report.json", toJson(report));
+  folder.commit();
 }
 
 }  // namespace light_field_depth

@@ -13,6 +13,7 @@ namespace
 constexpr double MILLISECONDS_PER_SECOND = 1000.0;
 /// A view that sent fewer than this share of what the busiest view sent loses images on its way.
 constexpr double AS_MANY_IMAGES = 0.9;
+constexpr double NEVER = std::numeric_limits<double>::infinity();
 
 Health healthOf(double value, double warn, double error)
 {
@@ -57,16 +58,20 @@ HealthReport InputHealth::incomplete() const
 {
   const ViewSynchronizerStatistics& before = samples_.front().input;
   const ViewSynchronizerStatistics& now = samples_.back().input;
-  const std::uint64_t broken =
-      now.sets_dropped - before.sets_dropped + now.sets_partial - before.sets_partial;
+  const std::uint64_t dropped = now.sets_dropped - before.sets_dropped;
+  const std::uint64_t broken = dropped + now.sets_partial - before.sets_partial;
   const std::uint64_t all = broken + now.sets_complete - before.sets_complete;
   HealthReport report;
   if (all < MIN_SETS)
   {
     return report;
   }
-  report.health = healthOf(static_cast<double>(broken) / static_cast<double>(all),
-                           thresholds_.warn_incomplete, thresholds_.error_incomplete);
+  // Sets that are used without a camera that failed are no error: the node goes on.
+  const auto share = [all](std::uint64_t sets)
+  { return static_cast<double>(sets) / static_cast<double>(all); };
+  const Health warned = healthOf(share(broken), thresholds_.warn_incomplete, NEVER);
+  report.health =
+      std::max(warned, healthOf(share(dropped), thresholds_.warn_incomplete, thresholds_.error_incomplete));
   const auto missing = [&](std::size_t view) { return now.views[view].missing - before.views[view].missing; };
   std::size_t worst = 0;
   for (std::size_t view = 1; view < now.views.size(); ++view)

@@ -1,5 +1,6 @@
 #include "light_field_depth/ros/image_conversion.h"
 
+#include <cstdint>
 #include <cstring>
 #include <utility>
 

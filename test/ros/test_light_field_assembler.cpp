@@ -170,7 +170,7 @@ TEST(LightFieldAssembler, ReducesViewsAndTheirCalibration)
   options.decimation = 2;
   LightFieldAssembler assembler = assemblerFor(input, options);
   const LightField light_field = assemble(assembler, input);
-  EXPECT_EQ(light_field.size(), cv::Size(20, 15));
+  EXPECT_EQ(light_field.size(), cv::Size(20, 16));
   EXPECT_NEAR(light_field.calibration->focal_length_px, 25.0, 1e-9);
   EXPECT_NEAR(light_field.calibration->disparity_offset_px, 2.0, 1e-9);
   EXPECT_NEAR(light_field.calibration->principal_point_px.x, (19.5 + 0.5) / 2 - 0.5, 1e-9);

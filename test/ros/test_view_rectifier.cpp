@@ -1,6 +1,8 @@
 #include "ros/view_rectifier.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
