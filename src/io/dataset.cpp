@@ -86,24 +86,36 @@ std::vector<View> chosenViews(const DatasetOptions& options, const PlacedViews& 
   return chosen;
 }
 
-/// Where some views are in colour, the grey ones become so too. @return how many did
-std::size_t makeAllColour(std::vector<View>& views)
+/// Grey and coloured views become alike. A grey reference makes all views grey:
+/// its match in the colours of the others is worth little. @return sentences that say what was done
+std::vector<std::string> makeAlike(std::vector<View>& views, const GridPosition& reference)
 {
+  std::vector<std::string> notes;
   const auto is_grey = [](const View& view) { return view.image.channels() == 1; };
   const auto greys = static_cast<std::size_t>(std::count_if(views.begin(), views.end(), is_grey));
-  if (greys == 0 || greys == views.size())
+  if (greys > 0 && greys < views.size())
   {
-    return 0;
-  }
-  for (View& view : views)
-  {
-    if (is_grey(view))
+    const bool to_grey =
+        std::any_of(views.begin(), views.end(),
+                    [&](const View& view) { return view.grid == reference && is_grey(view); });
+    for (View& view : views)
     {
-      const std::vector<cv::Mat> channels(3, view.image);
-      cv::merge(channels, view.image);
+      if (to_grey)
+      {
+        view.image = toGrey(view.image);
+      }
+      else if (is_grey(view))
+      {
+        const std::vector<cv::Mat> channels(3, view.image);
+        cv::merge(channels, view.image);
+      }
     }
+    notes.push_back(to_grey ? std::to_string(views.size() - greys) +
+                                  " coloured view(s) are read as grey, as the reference is."
+                            : std::to_string(greys) +
+                                  " grey view(s) among the coloured ones are read as colour.");
   }
-  return greys;
+  return notes;
 }
 
 void requireEqualImages(const std::vector<ViewFile>& files, const std::vector<View>& views)
@@ -302,10 +314,9 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
     views[i].image = store.image(description.views[i].id);
     dataset.files.push_back(description.views[i].path);
   }
-  if (const std::size_t greys = makeAllColour(views))
+  for (const std::string& note : makeAlike(views, placed.reference))
   {
-    description.notes.push_back(std::to_string(greys) +
-                                " grey view(s) among the coloured ones are read as colour.");
+    description.notes.push_back(note);
   }
   requireEqualImages(description.views, views);
   std::optional<Calibration> calibration;

@@ -1,11 +1,68 @@
 #include "io/dataset_format.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/image_files.h"
 
 namespace light_field_depth
 {
 namespace fs = std::filesystem;
+
+namespace
+{
+/// What people have light fields in that is not read, and what to do with it.
+struct Unreadable
+{
+  const char* extension;
+  const char* remedy;
+};
+
+constexpr std::array<Unreadable, 20> UNREADABLE = {{
+    {".h5", "is HDF5: write its views as PNG files"},
+    {".hdf5", "is HDF5: write its views as PNG files"},
+    {".mat", "is MATLAB's: write its views as PNG files"},
+    {".npy", "is NumPy's: write its views as PNG files"},
+    {".npz", "is NumPy's: write its views as PNG files"},
+    {".lfp", "is a plenoptic camera's own file: decode it and export the views or an ESLF image"},
+    {".lfr", "is a plenoptic camera's own file: decode it and export the views or an ESLF image"},
+    {".lfx", "is a plenoptic camera's own file: decode it and export the views or an ESLF image"},
+    {".raw", "is raw: develop it and export the views"},
+    {".dng", "is raw: develop it and export the views"},
+    {".cr2", "is raw: develop it and export the views"},
+    {".nef", "is raw: develop it and export the views"},
+    {".mp4", "is a video: extract its frames as PNG files"},
+    {".avi", "is a video: extract its frames as PNG files"},
+    {".mov", "is a video: extract its frames as PNG files"},
+    {".gif", "is a GIF: convert it to PNG"},
+    {".jp2", "is JPEG 2000: convert it to PNG"},
+    {".hdr", "is Radiance HDR: convert it to EXR or PNG"},
+    {".zip", "is an archive: unpack it"},
+    {".bag", "is a ROS bag: play it to the node"},
+}};
+
+/// Which file is there that is almost what is wanted; empty if there is none.
+std::string unreadableText(const std::vector<fs::path>& files)
+{
+  for (const fs::path& file : files)
+  {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    const auto* const known =
+        std::find_if(UNREADABLE.begin(), UNREADABLE.end(),
+                     [&](const Unreadable& kind) { return extension == kind.extension; });
+    if (known != UNREADABLE.end())
+    {
+      return "; '" + file.filename().string() + "' " + known->remedy;
+    }
+  }
+  return "";
+}
+
+}  // namespace
 
 const std::vector<DatasetFormat>& datasetFormats()
 {
@@ -14,12 +71,14 @@ const std::vector<DatasetFormat>& datasetFormats()
       {"lightfield.json", recognizeIdLab},
       {"transforms.json", recognizeTransforms},
       {"COLMAP", recognizeColmap},
+      {"KITTI's image_2 and image_3", recognizeKitti},
       {"a folder for each camera or frame", recognizeFolders},
       {"one image with all views", recognizeImage},
       {"Middlebury's calib.txt", recognizeMiddlebury},
       {"left and right", recognizeLeftRight},
       {"HCI's input_Cam000", recognizeHci},
       {"positions as in out_00_00_1.5_2.5", recognizePositions},
+      {"frames and views as in 00000_00", recognizeFramesInNames},
       {"rows and columns as in 00_00", recognizeRowsAndColumns},
       {"rows and columns as in 0000", recognizeFourDigits},
       {"an index as in view000", recognizeIndex},
@@ -46,8 +105,8 @@ FolderDescription describeFolder(const fs::path& folder, const DatasetOptions& o
   }
   if (listing.images.empty() && listing.folders.empty())
   {
-    throw InputError("The folder '" + folder.string() + "' has no images in it (" + imageFormatsText() +
-                     "); name the folder that holds the views.");
+    throw InputError("The folder '" + folder.string() + "' has no images in it (" + imageFormatsText() + ")" +
+                     unreadableText(listing.others) + "; name the folder that holds the views.");
   }
   const std::string first =
       listing.images.empty() ? "" : " (the first is '" + listing.images.front().filename().string() + "')";

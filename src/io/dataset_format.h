@@ -57,6 +57,8 @@ Recognition recognizeYaml(const FolderListing& listing, const DatasetOptions& op
 Recognition recognizeIdLab(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeTransforms(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeColmap(const FolderListing& listing, const DatasetOptions& options);
+Recognition recognizeFramesInNames(const FolderListing& listing, const DatasetOptions& options);
+Recognition recognizeKitti(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeMiddlebury(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeLeftRight(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeHci(const FolderListing& listing, const DatasetOptions& options);

@@ -7,6 +7,7 @@
 #include "light_field_depth/core/depth_sign.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/index_grid.h"
+#include "light_field_depth/core/pair_order.h"
 #include "light_field_depth/core/view_layout.h"
 
 namespace light_field_depth
@@ -32,6 +33,7 @@ struct ImageEvidence
   Layout layout;
   bool layout_decided = false;
   bool sign_decided = false;
+  bool swapped_pair = false;  ///< told by the side on which views match, not by occlusions
   bool sign_guessed = false;  ///< an axis runs backwards, and nothing tells which
 };
 
@@ -88,6 +90,13 @@ bool isBehindTheCamera(const DepthSign& sign)
   return sign.range.max < 0.0F && sign.range.max - sign.range.min < -MAX_SPREAD_SHARE * sign.range.max;
 }
 
+/// Whether the images are known to be focused on a plane: disparities have both signs then.
+bool isSheared(const FolderDescription& description)
+{
+  return description.camera && (description.camera->focus_distance_m.has_value() ||
+                                description.camera->disparity_offset_px.value_or(0.0) != 0.0);
+}
+
 std::optional<ImageEvidence> lookAtImages(const FolderDescription& description, const Layout& claimed,
                                           ViewStore& store)
 {
@@ -126,6 +135,13 @@ std::optional<ImageEvidence> lookAtImages(const FolderDescription& description, 
   {
     evidence.layout.flip = toggled(*evidence.layout.flip, true, true);
   }
+  if (!sign.decided && !backwards && !isSheared(description) && findPairOrder(*cross, store.pool()).swapped)
+  {
+    const bool along_rows = cross->views[0].grid.row == cross->views[1].grid.row;
+    evidence.sign_decided = true;
+    evidence.swapped_pair = true;
+    evidence.layout.flip = toggled(*evidence.layout.flip, !along_rows, along_rows);
+  }
   return evidence;
 }
 
@@ -143,39 +159,76 @@ std::string contradictionText(const ImageEvidence& evidence, const DatasetOption
          (by_option ? "leave these options out" : "give these options") + " if the result looks wrong.";
 }
 
+/// Thumbnails of the first views of an index; nothing if views are missing or differ in size.
+std::vector<cv::Mat> firstThumbnails(const FolderDescription& description, int count, ViewStore& store)
+{
+  std::vector<ViewFile> views = description.views;
+  if (static_cast<int>(views.size()) != count)
+  {
+    return {};
+  }
+  std::sort(views.begin(), views.end(),
+            [](const ViewFile& a, const ViewFile& b) { return a.number.column < b.number.column; });
+  views.resize(static_cast<std::size_t>(thumbnailsForRunLength(count)));
+  store.decode(idsOf(views));
+  std::vector<cv::Mat> thumbnails;
+  for (const ViewFile& view : views)
+  {
+    thumbnails.push_back(thumbnailOf(store.image(view.id)));
+    if (thumbnails.back().size() != thumbnails.front().size())
+    {
+      return {};  // what is wrong with the sizes is said later
+    }
+  }
+  return thumbnails;
+}
+
+/// How views that one number names lie in rows.
+struct IndexedGrid
+{
+  cv::Size size;
+  bool alternating = false;  ///< every second row is numbered backwards
+};
+
 /// The grid that the images tell, or a guess. Says which it is.
-cv::Size foundGrid(FolderDescription& description, int count, ViewStore& store)
+IndexedGrid foundGrid(FolderDescription& description, int count, ViewStore& store)
 {
   constexpr int MIN_VIEWS_OF_GRID = 4;
   if (count < MIN_VIEWS_OF_GRID)
   {
-    return guessedGrid(count);  // a row: nothing to choose from
+    return {guessedGrid(count)};  // a row: nothing to choose from
   }
-  std::vector<ViewFile> views = description.views;
-  std::sort(views.begin(), views.end(),
-            [](const ViewFile& a, const ViewFile& b) { return a.number.column < b.number.column; });
   RunLength run;
-  const bool complete = static_cast<int>(views.size()) == count;
-  if (complete)
+  const std::vector<cv::Mat> thumbnails = firstThumbnails(description, count, store);
+  if (!thumbnails.empty())
   {
-    views.resize(static_cast<std::size_t>(thumbnailsForRunLength(count)));
-    store.decode(idsOf(views));
-    std::vector<cv::Mat> thumbnails;
-    for (const ViewFile& view : views)
-    {
-      thumbnails.push_back(thumbnailOf(store.image(view.id)));
-      if (thumbnails.back().size() != thumbnails.front().size())
-      {
-        return guessedGrid(count);  // what is wrong with the sizes is said later
-      }
-    }
     run = findRunLength(thumbnails, count);
   }
-  const cv::Size grid = run.length > 0 ? cv::Size(run.length, count / run.length) : guessedGrid(count);
-  description.notes.push_back("The " + std::to_string(count) + " views are taken for a grid of " +
-                              gridText(grid) + " (rows x columns), " +
-                              (run.length > 0 ? "as the images tell" : "by their number alone") +
-                              "; --grid ROWSxCOLUMNS says otherwise.");
+  const IndexedGrid grid = {run.length > 0 ? cv::Size(run.length, count / run.length) : guessedGrid(count),
+                            run.alternating};
+  description.notes.push_back(
+      "The " + std::to_string(count) + " views are taken for " +
+      (grid.size.height == 1 ? "a single row" : "a grid of " + gridText(grid.size) + " (rows x columns)") +
+      (grid.alternating ? ", every second row numbered backwards" : "") + ", " +
+      (run.length > 0 ? "as the images tell" : "by their number alone") +
+      "; --grid ROWSxCOLUMNS says otherwise.");
+  return grid;
+}
+
+/// A grid that is stated, and whether the images show that every second row runs backwards.
+IndexedGrid statedGrid(FolderDescription& description, const cv::Size& size, int count, ViewStore& store)
+{
+  IndexedGrid grid = {size};
+  if (size.width > 1 && size.height > 1 && count == size.area())
+  {
+    const std::vector<cv::Mat> thumbnails = firstThumbnails(description, count, store);
+    const RunLength run = thumbnails.empty() ? RunLength() : findRunLength(thumbnails, count);
+    grid.alternating = run.alternating && run.length == size.width;
+    if (grid.alternating)
+    {
+      description.notes.emplace_back("Every second row is numbered backwards, as the images tell.");
+    }
+  }
   return grid;
 }
 
@@ -192,15 +245,12 @@ void settleGrid(FolderDescription& description, const DatasetOptions& options, V
   { return a.number.column < b.number.column; };
   const int first = std::min_element(views.begin(), views.end(), by_column)->number.column;
   const int count = std::max_element(views.begin(), views.end(), by_column)->number.column - first + 1;
-  cv::Size grid;
-  if (options.grid)
-  {
-    grid = *options.grid;
-  }
-  else
-  {
-    grid = description.grid ? description.grid->size() : foundGrid(description, count, store);
-  }
+  const std::optional<cv::Size> stated = options.grid       ? options.grid
+                                         : description.grid ? std::make_optional(description.grid->size())
+                                                            : std::nullopt;
+  const IndexedGrid found =
+      stated ? statedGrid(description, *stated, count, store) : foundGrid(description, count, store);
+  const cv::Size grid = found.size;
   if (count > grid.area())
   {
     throw InputError("The numbers of the views span " + std::to_string(count) + " places, but a grid of " +
@@ -210,7 +260,9 @@ void settleGrid(FolderDescription& description, const DatasetOptions& options, V
   for (ViewFile& view : views)
   {
     const int index = view.number.column - first;
-    view.number = {index / grid.width, index % grid.width};
+    const GridPosition place{index / grid.width, index % grid.width};
+    const bool backwards = found.alternating && place.row % 2 == 1;
+    view.number = {place.row, backwards ? grid.width - 1 - place.column : place.column};
   }
   description.grid = cv::Rect({0, 0}, grid);
 }
@@ -248,6 +300,14 @@ Layout settleLayout(FolderDescription& description, const DatasetOptions& option
   }
   layout = seen;
   layout.source = LayoutSource::Images;
+  if (evidence->swapped_pair)
+  {
+    description.warnings.push_back(
+        "The two views are swapped: they match as if all of the scene lay behind infinity, so "
+        "they are read with --flip " +
+        toString(*seen.flip) + "; rename them, or give --flip none if they are focused on a near plane.");
+    return layout;
+  }
   description.notes.push_back("The images tell the layout: --order " + toString(seen.order) + ", --flip " +
                               toString(*seen.flip) + "." +
                               (evidence->sign_guessed ? " Which of the two axes runs backwards they do not "

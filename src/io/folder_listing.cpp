@@ -91,6 +91,10 @@ FolderListing listFolder(const fs::path& folder)
     {
       listing.folders.push_back(entry->path());
     }
+    else
+    {
+      listing.others.push_back(entry->path());
+    }
   }
   if (error)
   {
@@ -98,6 +102,7 @@ FolderListing listFolder(const fs::path& folder)
   }
   sortByName(listing.images);
   sortByName(listing.folders);
+  sortByName(listing.others);
   return listing;
 }
 

@@ -13,6 +13,7 @@ struct FolderListing
   std::filesystem::path folder;
   std::vector<std::filesystem::path> images;  ///< regular files of a known image format
   std::vector<std::filesystem::path> folders;
+  std::vector<std::filesystem::path> others = {};  ///< all else
 };
 
 /// @throw InputError if the folder cannot be read

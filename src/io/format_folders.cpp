@@ -39,9 +39,15 @@ bool isFrameName(const fs::path& folder)
   return false;
 }
 
+/// The views in a folder, or in the only folder with images inside of it (cam0/data).
 std::vector<fs::path> viewImages(const fs::path& folder)
 {
-  std::vector<fs::path> images = listFolder(folder).images;
+  FolderListing listing = listFolder(folder);
+  if (listing.images.empty() && listing.folders.size() == 1)
+  {
+    listing = listFolder(listing.folders.front());
+  }
+  std::vector<fs::path> images = listing.images;
   const auto says_no = [](const fs::path& path) { return saysNoView(path.stem().string()); };
   if (!std::all_of(images.begin(), images.end(), says_no))
   {
@@ -81,6 +87,61 @@ std::vector<std::string> stemsOf(const std::vector<fs::path>& images)
   std::transform(images.begin(), images.end(), std::back_inserter(stems),
                  [](const fs::path& path) { return path.stem().string(); });
   return stems;
+}
+
+/// Whether a folder is a row (or column) whose images are its views: row_0/col_1, or 00/01 with as many in
+/// each as there are folders.
+bool areRowsOfViews(const std::vector<fs::path>& folders)
+{
+  const auto form_of = [](const fs::path& path) { return takeApart(path.filename()).form; };
+  std::vector<std::string> first_stems;
+  std::string image_form;
+  for (const fs::path& folder : folders)
+  {
+    const std::vector<fs::path> images = viewImages(folder);
+    std::vector<std::string> stems = stemsOf(images);
+    if (first_stems.empty())
+    {
+      first_stems = stems;
+      image_form = images.empty() ? "" : takeApart(images.front()).form;
+    }
+    if (stems != first_stems ||
+        takeApart(folder.filename()).form != takeApart(folders.front().filename()).form)
+    {
+      return false;
+    }
+  }
+  const auto begins_with = [](const std::string& text, const char* word) { return text.rfind(word, 0) == 0; };
+  const std::string folder_form = form_of(folders.front());
+  const bool rows = begins_with(folder_form, "row") || begins_with(folder_form, "col") ||
+                    folder_form == "y#" || folder_form == "v#" || folder_form == "x#" || folder_form == "u#";
+  const bool views = begins_with(image_form, "row") || begins_with(image_form, "col") || image_form == "x#" ||
+                     image_form == "u#" || image_form == "y#" || image_form == "v#";
+  const bool bare_square = folder_form == "#" && image_form == "#" && first_stems.size() == folders.size();
+  return first_stems.size() >= 2 && ((rows && views) || bare_square);
+}
+
+std::optional<FolderDescription> describeRowsOfViews(const std::vector<fs::path>& folders)
+{
+  FolderDescription description;
+  description.format = "grid of folders";
+  description.place_claim = PlaceClaim::TwoNumbers;
+  for (const fs::path& folder : folders)
+  {
+    const NumberedName row = takeApart(folder.filename());
+    for (const fs::path& image : viewImages(folder))
+    {
+      const NumberedName column = takeApart(image);
+      if (row.numbers.size() != 1 || column.numbers.size() != 1)
+      {
+        return std::nullopt;
+      }
+      const auto to_int = [](long long number)
+      { return static_cast<int>(std::clamp<long long>(number, -MAX_NUMBER, MAX_NUMBER)); };
+      description.views.push_back({image, {to_int(row.numbers.front()), to_int(column.numbers.front())}, {}});
+    }
+  }
+  return description;
 }
 
 /// The image of the same frame in another camera's folder: of the same name, or else of the same place.
@@ -160,6 +221,10 @@ Recognition recognizeFolders(const FolderListing& listing, const DatasetOptions&
       folders.push_back(folder);
     }
   }
+  if (folders.empty() && listing.folders.size() == 1)
+  {
+    folders = listing.folders;  // a folder in a folder in a folder
+  }
   if (folders.empty())
   {
     return Recognition::no("no folder in it has images");
@@ -170,6 +235,13 @@ Recognition recognizeFolders(const FolderListing& listing, const DatasetOptions&
     description.notes.insert(description.notes.begin(),
                              "The views are those in '" + folders.front().filename().string() + "'.");
     return description;
+  }
+  if (areRowsOfViews(folders))
+  {
+    if (auto rows = describeRowsOfViews(folders))
+    {
+      return std::move(*rows);
+    }
   }
   if (isFrameName(folders.front()) || holdsLightField(listFolder(folders.front()), options))
   {

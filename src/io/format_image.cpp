@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 
 #include "io/dataset_format.h"
 #include "io/image_period.h"
@@ -59,6 +60,35 @@ void leaveOutDarkViews(const cv::Mat& image, FolderDescription& description)
   }
 }
 
+/// COLUMNS x ROWS of a quilt for light field displays, whose name ends in _qs8x6a0.75; nothing otherwise.
+std::optional<cv::Size> quiltOf(const std::filesystem::path& file)
+{
+  static const std::regex form(R"(.*_qs(\d{1,2})x(\d{1,2})(?:a\d*\.?\d*)?)");
+  const std::string stem = file.stem().string();
+  std::smatch match;
+  if (!std::regex_match(stem, match, form))
+  {
+    return std::nullopt;
+  }
+  const cv::Size tiles(std::stoi(match[1]), std::stoi(match[2]));
+  return tiles.area() > 1 ? std::make_optional(tiles) : std::nullopt;
+}
+
+/// The tiles of a quilt are one row of views: they begin at the bottom, on the left.
+FolderDescription describeQuilt(const std::filesystem::path& file, const cv::Size& tiles)
+{
+  FolderDescription description = describeParts(file, tiles, ViewPart::Kind::Tile);
+  description.format = "quilt";
+  for (ViewFile& view : description.views)
+  {
+    view.number = {0, (tiles.height - 1 - view.part.cell.row) * tiles.width + view.part.cell.column};
+  }
+  description.notes.push_back("'" + file.filename().string() + "' is read as a quilt of " +
+                              std::to_string(tiles.area()) +
+                              " views in a row, as its name says; --tiles ROWSxCOLUMNS reads it as a grid.");
+  return description;
+}
+
 Recognition recognizeParts(const std::filesystem::path& file, const DatasetOptions& options)
 {
   const cv::Mat image = readImage(file);
@@ -71,6 +101,11 @@ Recognition recognizeParts(const std::filesystem::path& file, const DatasetOptio
                        " equal tiles; check --tiles.");
     }
     return describeParts(file, *options.tiles, ViewPart::Kind::Tile);
+  }
+  const auto quilt = quiltOf(file);
+  if (quilt && image.cols % quilt->width == 0 && image.rows % quilt->height == 0)
+  {
+    return describeQuilt(file, *quilt);
   }
   if (const auto lenslets = findLenslets(image))
   {

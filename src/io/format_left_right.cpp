@@ -15,30 +15,46 @@ namespace
 {
 namespace fs = std::filesystem;
 
+/// The words of a name and what stands between them, in order: a word ends where letters end, and before a
+/// capital behind a small letter, so that imgL has two.
+std::vector<std::string> partsOf(const std::string& name)
+{
+  const auto is_letter = [](char letter) { return std::isalpha(static_cast<unsigned char>(letter)) != 0; };
+  const auto is_small = [](char letter) { return std::islower(static_cast<unsigned char>(letter)) != 0; };
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < name.size(); ++i)
+  {
+    const bool goes_on = i > 0 && is_letter(name[i]) && is_letter(name[i - 1]) &&
+                         !(is_small(name[i - 1]) && !is_small(name[i]));
+    if (!goes_on)
+    {
+      parts.emplace_back();
+    }
+    parts.back() += name[i];
+  }
+  return parts;
+}
+
 /// The name without its word for the side, and the side: 0 left, 1 right; no side if there is no such word.
 std::pair<std::string, std::optional<int>> sideOf(const std::string& name)
 {
   std::string rest;
-  std::string word;
   std::optional<int> side;
-  for (const char letter : name + "_")
+  for (std::string part : partsOf(name))
   {
-    if (std::isalpha(static_cast<unsigned char>(letter)) != 0)
-    {
-      word += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-      continue;
-    }
+    std::string word = part;
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     const bool is_left = word == "left" || word == "l";
     const bool is_right = word == "right" || word == "r";
     if (is_left || is_right)
     {
       side = is_left ? 0 : 1;
-      word = "#";
+      part = "#";
     }
-    rest += word + letter;
-    word.clear();
+    rest += part;
   }
-  return {rest.substr(0, rest.size() - 1), side};
+  return {rest, side};
 }
 
 struct Pair

@@ -10,6 +10,7 @@ namespace light_field_depth
 {
 namespace
 {
+constexpr long long TEN = 10;
 constexpr long long HUNDRED = 100;
 constexpr std::size_t FOUR = 4;
 
@@ -25,6 +26,32 @@ FolderDescription describe(const ViewNames& names)
   description.place_claim = PlaceClaim::TwoNumbers;
   description.notes = leftOutNotes(names.left_out);
   return description;
+}
+
+/// The one number that varies, if all names write it with 2 or 4 digits.
+struct DigitPlace
+{
+  std::size_t place = 0;
+  long long columns = 0;  ///< 10 or 100: what a row counts
+};
+
+std::optional<DigitPlace> digitPlaceIn(const NameGroup& group)
+{
+  const std::vector<std::size_t> varying = group.varying();
+  if (varying.size() != 1)
+  {
+    return std::nullopt;
+  }
+  const std::size_t place = varying.front();
+  const std::size_t digits = group.names.front().digits[place];
+  const bool same = std::all_of(group.names.begin(), group.names.end(),
+                                [&](const NumberedName& name)
+                                { return name.digits[place] == digits && name.numbers[place] >= 0; });
+  if (!same || (digits != 2 && digits != FOUR))
+  {
+    return std::nullopt;
+  }
+  return DigitPlace{place, digits == FOUR ? HUNDRED : TEN};
 }
 
 }  // namespace
@@ -57,22 +84,20 @@ Recognition recognizeRowsAndColumns(const FolderListing& listing, const DatasetO
 Recognition recognizeFourDigits(const FolderListing& listing, const DatasetOptions& options)
 {
   const auto names = viewNames(listing.folder, listing.images);
-  if (!names || names->group.form != "#")
+  const auto digits = names ? digitPlaceIn(names->group) : std::nullopt;
+  if (!digits)
   {
-    return Recognition::no("the names are not four digits");
+    return Recognition::no("the names do not differ in two or four digits alone");
   }
   std::set<long long> numbers;
   std::set<long long> rows;
   std::set<long long> columns;
   for (const NumberedName& name : names->group.names)
   {
-    if (name.digits.front() != FOUR || name.numbers.front() < 0)
-    {
-      return Recognition::no("'" + name.path.filename().string() + "' has not four digits");
-    }
-    numbers.insert(name.numbers.front());
-    rows.insert(name.numbers.front() / HUNDRED);
-    columns.insert(name.numbers.front() % HUNDRED);
+    const long long number = name.numbers[digits->place];
+    numbers.insert(number);
+    rows.insert(number / digits->columns);
+    columns.insert(number % digits->columns);
   }
   // An index runs on without a gap, from 0099 to 0100; rows of columns begin anew.
   const bool runs_on = *numbers.rbegin() - *numbers.begin() + 1 == static_cast<long long>(numbers.size());
@@ -80,11 +105,21 @@ Recognition recognizeFourDigits(const FolderListing& listing, const DatasetOptio
   {
     return Recognition::no("the numbers run on like an index");
   }
+  // Four bare digits are row and column also where views are missing, other numbers only if they fill a grid.
+  const auto is_dense = [](const std::set<long long>& counted)
+  { return *counted.rbegin() - *counted.begin() + 1 == static_cast<long long>(counted.size()); };
+  const bool is_full = rows.size() > 1 && rows.size() * columns.size() == numbers.size() && is_dense(rows) &&
+                       is_dense(columns);
+  if (!is_full && (names->group.form != "#" || digits->columns != HUNDRED))
+  {
+    return Recognition::no("the numbers do not fill a grid of rows and columns");
+  }
   FolderDescription description = describe(*names);
   for (const NumberedName& name : names->group.names)
   {
+    const long long number = name.numbers[digits->place];
     description.views.push_back(
-        {name.path, {toInt(name.numbers.front() / HUNDRED), toInt(name.numbers.front() % HUNDRED)}, {}});
+        {name.path, {toInt(number / digits->columns), toInt(number % digits->columns)}, {}});
   }
   return description;
 }

@@ -15,6 +15,11 @@ constexpr int MAX_LENSLET_PX = 20;
 constexpr int MIN_LENSLETS = 16;
 /// Change of brightness from one lenslet to the next over that inside of one; the blocks of a JPEG reach 1.3.
 constexpr double MIN_LENSLET_EDGE = 1.5;
+/// Difference of pixels whole lenslets apart over that of pixels half a lenslet more or less apart. It is 1
+/// or more where nothing repeats; the dark rim of a lens' lenslets makes it 0.2 to 0.6, and hides the edges
+/// between them.
+constexpr double MAX_LENSLET_DIFFERENCE = 0.75;
+constexpr int LENSLETS_APART = 3;
 
 constexpr int MAX_TILES = 32;
 constexpr int MIN_TILE_PX = 16;
@@ -96,6 +101,21 @@ double borderChange(const std::vector<double>& changes, int period)
   return at_border / static_cast<double>(borders) / (elsewhere / static_cast<double>(others));
 }
 
+/// The largest of the differences of pixels one to three parts apart, each over that of pixels half a part
+/// more or less apart.
+double repeatedDifference(const cv::Mat& grey, int period)
+{
+  double largest = 0.0;
+  for (int apart = 1; apart <= LENSLETS_APART; ++apart)
+  {
+    const int half = period / 2;
+    const double other =
+        0.5 * (shiftDifference(grey, apart * period - half) + shiftDifference(grey, apart * period + half));
+    largest = std::max(largest, other > 0.0 ? shiftDifference(grey, apart * period) / other : 1.0);
+  }
+  return largest;
+}
+
 double median(std::vector<double> values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -175,8 +195,9 @@ cv::Mat extractPart(const cv::Mat& image, const ViewPart& part)
 std::optional<cv::Size> findLenslets(const cv::Mat& image)
 {
   const cv::Mat grey = greyLevels(image);
+  const cv::Mat turned = grey.t();
   const std::vector<double> along_rows = changesAlongRows(grey);
-  const std::vector<double> along_columns = changesAlongRows(grey.t());
+  const std::vector<double> along_columns = changesAlongRows(turned);
   std::optional<cv::Size> best;
   double best_edge = MIN_LENSLET_EDGE;
   for (int side = MIN_LENSLET_PX; side <= MAX_LENSLET_PX; ++side)
@@ -185,6 +206,10 @@ std::optional<cv::Size> findLenslets(const cv::Mat& image)
         image.rows < side * MIN_LENSLETS)
     {
       continue;
+    }
+    if (std::max(repeatedDifference(grey, side), repeatedDifference(turned, side)) < MAX_LENSLET_DIFFERENCE)
+    {
+      return cv::Size(side, side);  // what repeats after 7 pixels does so after 14 as well
     }
     const double edge = std::min(usualBorderChange(along_rows, side), usualBorderChange(along_columns, side));
     if (edge > best_edge)

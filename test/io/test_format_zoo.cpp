@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
@@ -25,6 +26,7 @@ namespace
 using testing::TemporaryFolder;
 
 constexpr int SIDE = 5;
+constexpr int LONG_ROW = 9;
 
 /// A view of the scene by its row and column from 0, in the package's convention.
 using Scene = std::function<cv::Mat(int row, int column)>;
@@ -41,7 +43,7 @@ struct Animal
   double max_difference = 0.0;  ///< of a level, in the mean: what JPEG may change
 };
 
-/// A scene with depth, of 17 x 17 views, rendered once.
+/// A scene with depth, of 5 x 9 views, rendered once.
 class RenderedScene
 {
 public:
@@ -60,7 +62,7 @@ private:
   {
     testing::SceneSettings settings;
     settings.size = {80, 64};
-    settings.positions = testing::gridPositions(SIDE, SIDE);
+    settings.positions = testing::gridPositions(SIDE, LONG_ROW);
     settings.samples = 2;
     views_ = testing::renderScene(testing::standardScene(settings.size), settings).light_field.views;
   }
@@ -120,6 +122,7 @@ Write extraImage(const std::string& name)
 
 const cv::Size FIVE(SIDE, SIDE);
 const cv::Size ROW(SIDE, 1);
+const cv::Size NINE(LONG_ROW, 1);
 const cv::Size PAIR(2, 1);
 
 std::string position(double value)
@@ -150,6 +153,9 @@ std::vector<Animal> namedByRowAndColumn()
                      ".png";
             }),
       named("upper case", [](int r, int c) { return "VIEW_" + padded(r, 2) + "_" + padded(c, 2) + ".PNG"; }),
+      named("cam0101 in full", [](int r, int c) { return "cam" + padded(r, 2) + padded(c, 2) + ".png"; }),
+      named("spaces and letters beyond ASCII", [](int r, int c)
+            { return "B\u00FCste \u82B1 (" + padded(r, 1) + ", " + padded(c, 1) + ").png"; }),
       named("thumbnails, masks and truth beside it",
             [](int r, int c) { return "lf_" + padded(r, 2) + "_" + padded(c, 2) + ".png"; }),
   };
@@ -171,9 +177,30 @@ std::vector<Animal> namedByIndex()
        grid(FIVE, [=](int r, int c) { return padded(index(r, c) + 1, 4) + ".png"; })},
       {"lowtoys001.bmp", FIVE, "index",
        grid(FIVE, [=](int r, int c) { return "lowtoys" + padded(index(r, c) + 1, 3) + ".bmp"; })},
+      {"back and forth", FIVE, "index",
+       grid(FIVE, [=](int r, int c)
+            { return "IMG_" + padded(index(r, r % 2 == 0 ? c : SIDE - 1 - c), 4) + ".png"; })},
+      {"nine in a row", NINE, "index", grid(NINE, [](int, int c) { return "cam" + padded(c, 2) + ".png"; })},
+      {"nine folders in a row", NINE, "index of folders",
+       grid(NINE, [](int, int c) { return "camera " + padded(c + 1, 1) + "/frame_000123.png"; })},
+      {"frames and views in the names", FIVE, "index",
+       both(grid(FIVE, [=](int r, int c) { return "Painter_pr_00001_" + padded(index(r, c), 2) + ".png"; }),
+            grid(FIVE, [=](int r, int c) { return "Painter_pr_00002_" + padded(index(r, c), 2) + ".png"; }))},
+      {"cameras and frames in the names", ROW, "index",
+       both(grid(ROW, [](int, int c) { return "cam" + padded(c, 1) + "_frame0001.png"; }),
+            grid(ROW, [](int, int c) { return "cam" + padded(c, 1) + "_frame0002.png"; }))},
+      {"a folder for each row", FIVE, "grid of folders",
+       grid(FIVE, [](int r, int c) { return "row_" + padded(r, 1) + "/col_" + padded(c, 1) + ".png"; })},
+      {"a folder for each row, in numbers", FIVE, "grid of folders",
+       grid(FIVE, [](int r, int c) { return padded(r, 2) + "/" + padded(c, 2) + ".png"; })},
+      {"a folder in a folder", FIVE, "grid",
+       grid(FIVE,
+            [](int r, int c) { return "Scene/images/views/" + padded(r, 1) + "_" + padded(c, 1) + ".png"; })},
       {"a row", ROW, "index", grid(ROW, [](int, int c) { return "view" + padded(c, 1) + ".png"; })},
       {"a folder for each camera", FIVE, "index of folders",
        grid(FIVE, [=](int r, int c) { return "cam_" + padded(index(r, c), 2) + "/image_000.JPG"; }), 5.0},
+      {"cameras in two digits", FIVE, "grid of folders",
+       grid(FIVE, [](int r, int c) { return "cam_" + padded(r, 1) + padded(c, 1) + "/img.png"; })},
       {"cameras named by row and column", FIVE, "grid of folders",
        grid(FIVE, [](int r, int c) { return "cam_" + padded(r, 2) + "_" + padded(c, 2) + "/0001.png"; })},
       {"a folder for each frame", FIVE, "grid",
@@ -215,6 +242,16 @@ std::vector<Animal> pairs()
       {"view1 and view5", PAIR, "index", both(pair("view1.png", "view5.png"), extraImage("disp1.png"))},
       {"left and right", PAIR, "stereo", pair("left.png", "right.png")},
       {"L and R", PAIR, "stereo", pair("scene_L.png", "scene_R.png")},
+      {"imgL and imgR", PAIR, "stereo", pair("imgL.png", "imgR.png")},
+      {"leftImage and rightImage", PAIR, "stereo", pair("leftImage.png", "rightImage.png")},
+      {"KITTI", PAIR, "kitti",
+       both(pair("image_2/000000_10.png", "image_3/000000_10.png"),
+            both(pair("image_2/000000_11.png", "image_3/000000_11.png"),
+                 both(pair("image_2/000001_10.png", "image_3/000001_10.png"),
+                      extraImage("disp_occ_0/000000_10.png"))))},
+      {"KITTI, raw", PAIR, "kitti", pair("image_02/data/0000000000.png", "image_03/data/0000000000.png")},
+      {"EuRoC", PAIR, "index of folders",
+       pair("mav0/cam0/data/1403636579763555584.png", "mav0/cam1/data/1403636579763555584.png")},
       {"left and right folders", PAIR, "stereo of folders", pair("left/0001.png", "right/0001.png")},
   };
 }
@@ -249,9 +286,40 @@ cv::Mat lenslets(const Scene& scene)
   return image;
 }
 
+/// Lenslets whose rims are dark, as behind a real lens; most of all those of the corners.
+cv::Mat darkRimmedLenslets(const Scene& scene)
+{
+  cv::Mat image = lenslets(scene);
+  constexpr double middle = 0.5 * (SIDE - 1);
+  for (int y = 0; y < image.rows; ++y)
+  {
+    for (int x = 0; x < image.cols; ++x)
+    {
+      const double radius = std::hypot(x % SIDE - middle, y % SIDE - middle) / middle;
+      image.at<cv::Vec3b>(y, x) *= radius > 1.2 ? 0.05 : radius > 0.9 ? 0.6 : 1.0;
+    }
+  }
+  return image;
+}
+
+/// All views of a row from the bottom left on.
+cv::Mat quilt(const Scene& scene)
+{
+  const cv::Size size = scene(0, 0).size();
+  cv::Mat image(3 * size.height, 3 * size.width, CV_8UC3);
+  for (int view = 0; view < NINE.width; ++view)
+  {
+    scene(0, view).copyTo(image(cv::Rect({view % 3 * size.width, (2 - view / 3) * size.height}, size)));
+  }
+  return image;
+}
+
 std::vector<Animal> singleImages()
 {
   return {
+      {"quilt", NINE, "quilt",
+       [](const TemporaryFolder& folder, const Scene& scene)
+       { write(folder, "bust_qs3x3a1.25.png", quilt(scene)); }},
       {"lenslets", FIVE, "lenslets",
        [](const TemporaryFolder& folder, const Scene& scene)
        { write(folder, "flower_eslf.png", lenslets(scene)); }},
@@ -403,6 +471,62 @@ TEST(FormatZoo, TakesTheGridThatIsGiven)
   options.grid = cv::Size(3, 3);
   EXPECT_NE(testing::messageOf<InputError>([&] { readDataset(folder.path(), options); }).find("--grid"),
             std::string::npos);
+}
+
+TEST(FormatZoo, LeavesOutTheDarkCornersOfLenslets)
+{
+  const TemporaryFolder folder;
+  write(folder, "flower_eslf.png", darkRimmedLenslets(RenderedScene::view));
+  const Dataset dataset = readDataset(folder.path());
+  EXPECT_EQ(dataset.format, "lenslets");
+  EXPECT_EQ(dataset.views_found, 21U);
+  EXPECT_EQ(viewAt(dataset.light_field, 2, 2), nullptr);
+  const View* const view = viewAt(dataset.light_field, 1, -1);
+  ASSERT_TRUE(view != nullptr);
+  EXPECT_EQ(cv::norm(view->image, RenderedScene::view(1, 3), cv::NORM_INF), 0.0);
+}
+
+TEST(FormatZoo, AGreyReferenceMakesAllViewsGrey)
+{
+  const TemporaryFolder folder;
+  write(folder, "left.png", cv::Mat(20, 24, CV_8UC1, 100.0));
+  write(folder, "right.png", cv::Mat(20, 24, CV_8UC3, cv::Scalar::all(100.0)));
+  const Dataset dataset = readDataset(folder.path());
+  for (const View& view : dataset.light_field.views)
+  {
+    EXPECT_EQ(view.image.type(), CV_8UC1);
+    EXPECT_EQ(cv::mean(view.image)[0], 100.0);
+  }
+  EXPECT_EQ(dataset.notes.size(), 1U);
+}
+
+TEST(FormatZoo, TakesKittisCalibration)
+{
+  const TemporaryFolder folder;
+  for (const char* const camera : {"image_0", "image_1"})
+  {
+    write(folder, camera + std::string("/000000.png"), cv::Mat(20, 24, CV_8UC1, 100.0));
+  }
+  folder.write("calib.txt", "P0: 700 0 11 0 0 700 9 0 0 0 1 0\nP1: 700 0 11 -378 0 700 9 0 0 0 1 0\n");
+  const Dataset dataset = readDataset(folder.path());
+  ASSERT_TRUE(dataset.light_field.calibration);
+  EXPECT_DOUBLE_EQ(dataset.light_field.calibration->focal_length_px, 700.0);
+  EXPECT_DOUBLE_EQ(dataset.light_field.calibration->baseline_m, 0.54);
+  EXPECT_EQ(dataset.light_field.calibration->principal_point_px, cv::Point2d(11.0, 9.0));
+}
+
+TEST(FormatZoo, SaysWhatToDoWithFilesThatAreNoImages)
+{
+  for (const auto& [file, word] :
+       {std::make_pair("buddha.h5", "HDF5"), std::make_pair("IMG_0001.LFP", "plenoptic"),
+        std::make_pair("LF.mat", "MATLAB"), std::make_pair("scene.mp4", "video")})
+  {
+    const TemporaryFolder folder;
+    folder.write(file, "content");
+    const std::string message = testing::messageOf<InputError>([&] { readDataset(folder.path()); });
+    EXPECT_NE(message.find(file), std::string::npos) << message;
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
 }
 
 TEST(FormatZoo, ListsWhatWasTried)

@@ -16,19 +16,53 @@ constexpr int THUMBNAIL_SIDE_PX = 32;
 /// Of the square root of the number of views: so many runs of a square grid are looked at.
 constexpr double RUNS = 4.0;
 
-/// Mean absolute difference of the views that stand `lag` numbers apart.
-double differenceAt(const std::vector<cv::Mat>& thumbnails, int lag)
+double difference(const std::vector<cv::Mat>& thumbnails, int i, int j)
 {
-  double sum = 0.0;
-  const int pairs = static_cast<int>(thumbnails.size()) - lag;
-  for (int i = 0; i < pairs; ++i)
+  const cv::Mat& a = thumbnails[static_cast<std::size_t>(i)];
+  return cv::norm(a, thumbnails[static_cast<std::size_t>(j)], cv::NORM_L1) / static_cast<double>(a.total());
+}
+
+/// Mean absolute differences of the views so many numbers apart; 0 for none.
+std::vector<double> differencesByLag(const std::vector<cv::Mat>& thumbnails)
+{
+  const int count = static_cast<int>(thumbnails.size());
+  std::vector<double> differences(thumbnails.size(), 0.0);
+  for (int lag = 1; lag < count; ++lag)
   {
-    const int other = i + lag;
-    const cv::Mat& a = thumbnails[static_cast<std::size_t>(i)];
-    const cv::Mat& b = thumbnails[static_cast<std::size_t>(other)];
-    sum += cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total());
+    double sum = 0.0;
+    for (int i = 0; i + lag < count; ++i)
+    {
+      sum += difference(thumbnails, i, i + lag);
+    }
+    differences[static_cast<std::size_t>(lag)] = sum / (count - lag);
   }
-  return pairs > 0 ? sum / pairs : 0.0;
+  return differences;
+}
+
+/// IndexGridOptions::max_dip of a length.
+double dipAt(const std::vector<double>& by_lag, int length)
+{
+  const auto lag = static_cast<std::size_t>(length);
+  const double beside = by_lag[lag - 1] + by_lag[lag + 1];
+  return beside > 0.0 ? 2.0 * by_lag[lag] / beside : 1.0;
+}
+
+/// IndexGridOptions::max_fold of a length.
+double foldAt(const std::vector<cv::Mat>& thumbnails, const std::vector<double>& by_lag, int length)
+{
+  const int count = static_cast<int>(thumbnails.size());
+  double facing = 0.0;
+  double usual = 0.0;
+  for (int end = length; end < count; end += length)
+  {
+    // The two views at the end itself are neighbours in any order.
+    for (int away = 1; away < length && end + away < count; ++away)
+    {
+      facing += difference(thumbnails, end - 1 - away, end + away);
+      usual += by_lag[static_cast<std::size_t>(2 * away + 1)];
+    }
+  }
+  return usual > 0.0 ? facing / usual : 1.0;
 }
 
 }  // namespace
@@ -52,7 +86,10 @@ cv::Mat thumbnailOf(const cv::Mat& view)
 
 RunLength findRunLength(const std::vector<cv::Mat>& thumbnails, int views, const IndexGridOptions& options)
 {
-  RunLength best;
+  const std::vector<double> by_lag = differencesByLag(thumbnails);
+  RunLength by_dip;
+  RunLength by_fold;
+  bool is_row = by_lag.size() > 2 && by_lag[1] > 0.0 && by_lag[2] >= options.min_growth_of_row * by_lag[1];
   const int longest = std::min(views / 2, static_cast<int>(thumbnails.size()) - 2);
   for (int length = 2; length <= longest; ++length)
   {
@@ -60,18 +97,27 @@ RunLength findRunLength(const std::vector<cv::Mat>& thumbnails, int views, const
     {
       continue;
     }
-    const double beside = differenceAt(thumbnails, length - 1) + differenceAt(thumbnails, length + 1);
-    const double dip = beside > 0.0 ? 2.0 * differenceAt(thumbnails, length) / beside : 1.0;
-    if (dip < best.dip)
+    const double dip = dipAt(by_lag, length);
+    const double fold = foldAt(thumbnails, by_lag, length);
+    is_row = is_row && std::min(dip, fold) >= options.min_of_row;
+    if (dip < by_dip.dip)
     {
-      best = {length, dip};
+      by_dip = {length, false, dip, fold};
+    }
+    if (fold < by_fold.fold)
+    {
+      by_fold = {length, true, dip, fold};
     }
   }
-  if (best.dip > options.max_dip)
+  if (by_dip.dip <= options.max_dip)
   {
-    best.length = 0;
+    return by_dip;
   }
-  return best;
+  if (by_fold.fold <= options.max_fold)
+  {
+    return by_fold;
+  }
+  return {is_row ? views : 0, false, by_dip.dip, by_fold.fold};
 }
 
 }  // namespace light_field_depth
