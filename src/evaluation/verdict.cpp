@@ -50,13 +50,14 @@ std::vector<float> sparsePixels(const cv::Mat& image)
   std::vector<float> values;
   const int pitch = std::max(1, image.rows / ROWS);
   const int channels = image.channels();
+  const int middle = channels / 2;
   for (int y = pitch / 2; y < image.rows; y += pitch)
   {
     for (int x = pitch / 2; x < image.cols; x += pitch)
     {
       values.push_back(image.depth() == CV_8U
-                           ? static_cast<float>(image.ptr<std::uint8_t>(y)[x * channels + channels / 2])
-                           : static_cast<float>(image.ptr<std::uint16_t>(y)[x * channels + channels / 2]));
+                           ? static_cast<float>(image.ptr<std::uint8_t>(y)[x * channels + middle])
+                           : static_cast<float>(image.ptr<std::uint16_t>(y)[x * channels + middle]));
     }
   }
   return values;

@@ -19,8 +19,8 @@ class YamlFields
 {
 public:
   /// @param name of the map for messages; empty for the top of the file
-  YamlFields(std::filesystem::path file, std::string name, YAML::Node map)
-      : file_(std::move(file)), name_(std::move(name)), map_(std::move(map))
+  YamlFields(std::filesystem::path file, std::string name, const YAML::Node& map)
+      : file_(std::move(file)), name_(std::move(name)), map_(map)
   {
     if (!map_.IsMap())
     {

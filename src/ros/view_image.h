@@ -22,7 +22,10 @@ public:
   const sensor_msgs::CompressedImageConstPtr& compressed() const { return compressed_; }
 
   /// @pre there is one
-  const std_msgs::Header& header() const { return raw_ != nullptr ? raw_->header : compressed_->header; }
+  std_msgs::Header header() const
+  {
+    return raw_ ? raw_->header : compressed_ ? compressed_->header : std_msgs::Header();
+  }
 
 private:
   sensor_msgs::ImageConstPtr raw_;

@@ -28,11 +28,11 @@ Messages messages()
 {
   Calibration calibration;
   calibration.focal_length_px = 50.0;
-  calibration.principal_point_px = {19.5, 14.5};
+  calibration.principal_point_px = {19.5, 15.5};
   calibration.baseline_m = 0.1;
   calibration.disparity_offset_px = 4.0;
   testing::SceneSettings settings;
-  settings.size = {40, 30};
+  settings.size = {40, 32};
   settings.positions = testing::gridPositions(3, 3);
   settings.calibration = calibration;
   const auto scene = testing::renderScene(testing::standardScene(settings.size), settings);
@@ -127,7 +127,7 @@ TEST(LightFieldAssembler, NamesTheViewWhoseImageDoesNotFit)
   {
     info->width = 80;
   }
-  expectSentence([&] { assemble(assembler, input); }, {"View (0, 0) (image0)", "40 x 30", "80 x 30"});
+  expectSentence([&] { assemble(assembler, input); }, {"View (0, 0) (image0)", "40 x 32", "80 x 32"});
 
   Messages mixed = messages();
   LightFieldAssembler mixed_assembler = assemblerFor(mixed);

@@ -6,12 +6,13 @@
 
 namespace light_field_depth
 {
-/// When findPairOrder() decides. Measured on Middlebury's Art, ETH3D's playground and pairs of views of five
-/// light fields that stand far apart, each in both orders.
+/// When findPairOrder() decides. Parallel cameras are assumed: a pair that was shifted so that its
+/// disparities are mostly negative looks like a swapped one. Art of Middlebury is found in both orders;
+/// ETH3D's playground, swapped, is not.
 struct PairOrderOptions
 {
-  /// Share of the pixels that match one way over that of the other way: 2.2 to 6 for parallel cameras, 0.9
-  /// to 1.15 where disparities have both signs.
+  /// Share of the pixels that match one way over that of the other way; about 1 where disparities have both
+  /// signs.
   double min_ratio = 1.9;
   /// Share of the pixels that match the better way. Views that hardly move match at next to no pixel either
   /// way.

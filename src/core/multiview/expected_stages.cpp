@@ -5,8 +5,8 @@ namespace light_field_depth::multiview
 namespace
 {
 // All shares are milliseconds of `balanced` on cotton (benchmark/results/profile.md), those of a stage that
-// comes more than once divided among its turns. They need not be exact: the bar has to move, and to move
-// evenly enough.
+// comes more than once divided among its turns; those of registration, upsampling and the left-right check
+// are estimates. They need not be exact: the bar has to move, and to move evenly enough.
 
 using Stages = std::vector<ExpectedStage>;
 

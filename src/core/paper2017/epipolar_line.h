@@ -27,7 +27,8 @@ public:
   /// @param displacement between min() - 1 and max() + 1
   cv::Point target(const cv::Point& from, int displacement) const
   {
-    return from + targets_[static_cast<std::size_t>(displacement - min_ + 1)];
+    const int index = displacement - min_ + 1;
+    return from + targets_[static_cast<std::size_t>(index)];
   }
 
   /// In pixels per grid step of the full size.

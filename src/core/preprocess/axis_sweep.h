@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_AXIS_SWEEP_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_AXIS_SWEEP_H
 
+#include <cmath>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -23,7 +24,7 @@ struct Displacements
   float step = 1.0F;
 
   int count() const { return 2 * half() + 1; }
-  int half() const { return static_cast<int>(reach / step + 0.5F); }
+  int half() const { return static_cast<int>(std::lround(reach / step)); }
   float at(int label) const { return static_cast<float>(label - half()) * step; }
 };
 
