@@ -76,11 +76,12 @@ bool DepthNode::Implementation::save(std_srvs::Trigger::Request& /*request*/,
     const std::lock_guard<std::mutex> lock(last_set_mutex_);
     last = last_set_;
   }
+  // Before the push: a listener that leaves just now clears the queue.
+  updateSubscriptions();
   if (!last.images.empty())
   {
     queue_.push(std::move(last));  // the current result; where sets go on coming, it may be that of the next
   }
-  updateSubscriptions();
   response.success = 1;
   response.message = "The result will be written to a folder below " + parameters_.save_directory +
                      ", named after the stamp of its set.";
