@@ -10,7 +10,7 @@ include(cmake/ros_interfaces.cmake)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES light_field_depth_core light_field_depth_evaluation light_field_depth_io light_field_depth_ros
-  CATKIN_DEPENDS cv_bridge diagnostic_updater dynamic_reconfigure image_transport message_runtime nodelet roscpp
+  CATKIN_DEPENDS cv_bridge diagnostic_updater dynamic_reconfigure geometry_msgs image_transport message_runtime nodelet roscpp
     sensor_msgs std_msgs std_srvs stereo_msgs
   DEPENDS OpenCV
   CFG_EXTRAS light_field_depth-extras.cmake)

@@ -22,7 +22,7 @@ struct PairOrderOptions
 /// Which of two parallel cameras is the left one.
 struct PairOrder
 {
-  bool decided = false;
+  bool decided = false;      ///< false: nothing can be said
   bool swapped = false;      ///< nearly all disparities are negative: the views are named the wrong way round
   double right_share = 0.0;  ///< of the pixels that match each other at positive disparities
   double swapped_share = 0.0;  ///< and at negative ones

@@ -30,7 +30,7 @@ using ProgressSink = std::function<void(const std::string& stage, double fractio
 /// A stage that is going to run.
 struct ExpectedStage
 {
-  std::string stage;
+  std::string stage;   ///< name, as in StageTime
   double share = 0.0;  ///< of the time, in any unit that all stages have in common
 };
 

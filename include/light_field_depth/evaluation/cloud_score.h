@@ -23,7 +23,7 @@ struct ViewTruth
 /// The true surfaces of a scene, as far as some views see them.
 struct CloudTruth
 {
-  Calibration calibration;
+  Calibration calibration;       ///< of the reference view
   std::vector<ViewTruth> views;  ///< the reference view first
 };
 
@@ -34,7 +34,7 @@ struct CloudTruth
 /// across it.
 struct CloudScore
 {
-  std::size_t points = 0;
+  std::size_t points = 0;            ///< scored
   std::size_t surface_elements = 0;  ///< of 1 pixel x 1 pixel x 1 % of depth that hold a point
   double accuracy_025 = 0.0;         ///< percentage of the points within 0.25 % of a true surface
   double accuracy_1 = 0.0;           ///< within 1 %

@@ -17,7 +17,7 @@ namespace light_field_depth
 struct ResultFileOptions
 {
   std::vector<MapFormat> formats = {MapFormat::Pfm};  ///< of disparity, confidence and depth
-  CloudAxes axes = CloudAxes::Optical;
+  CloudAxes axes = CloudAxes::Optical;                ///< of the clouds that are written
   bool preview = false;  ///< preview.png: reference view, disparity and confidence beside each other
 };
 

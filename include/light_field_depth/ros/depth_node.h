@@ -17,14 +17,14 @@ namespace light_field_depth
 /// A result that is to be saved, and what is to be known of it.
 struct ResultToSave
 {
-  std::string folder;  ///< to be made if need be
-  std::string source;  ///< topic of the reference view's images
-  std::size_t views_found = 0;
-  GridPosition reference;
-  int threads = 0;
-  PipelineOptions options;
-  std::optional<Calibration> calibration;
-  const PipelineResult& result;
+  std::string folder;                      ///< to be made if need be
+  std::string source;                      ///< topic of the reference view's images
+  std::size_t views_found = 0;             ///< how many views the array has
+  GridPosition reference;                  ///< place of the reference view in the grid
+  int threads = 0;                         ///< that work inside a stage
+  PipelineOptions options;                 ///< that the result was made with
+  std::optional<Calibration> calibration;  ///< of the reference view
+  const PipelineResult& result;            ///< what is to be written
 };
 
 /// Writes a result to its folder. Called by a thread of the node's own. @throw InputError

@@ -34,8 +34,8 @@ stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
 /// CameraInfos with a disparity, and would subtract a difference of principal points from it.
 struct StereoPair
 {
-  sensor_msgs::CameraInfoPtr left;
-  sensor_msgs::CameraInfoPtr right;
+  sensor_msgs::CameraInfoPtr left;   ///< of the reference view
+  sensor_msgs::CameraInfoPtr right;  ///< of the view beside it
 };
 StereoPair stereoPair(const std_msgs::Header& header, const Calibration& calibration, const cv::Size& size);
 
