@@ -14,14 +14,6 @@ namespace light_field_depth
 {
 namespace
 {
-// Entries of the projection matrix P, row by row.
-constexpr std::size_t FX = 0;
-constexpr std::size_t CX = 2;
-constexpr std::size_t TX = 3;
-constexpr std::size_t FY = 5;
-constexpr std::size_t CY = 6;
-constexpr std::size_t TY = 7;
-
 /// Rectified views share a focal length; rounding in calibration files stays far below this.
 constexpr double MAX_FOCAL_LENGTH_DIFFERENCE = 1e-3;
 /// A baseline given by hand that differs by more from the CameraInfo's deserves a warning.

@@ -15,14 +15,6 @@ namespace light_field_depth
 {
 namespace
 {
-// Entries of the projection matrix P, row by row.
-constexpr std::size_t FX = 0;
-constexpr std::size_t CX = 2;
-constexpr std::size_t TX = 3;
-constexpr std::size_t FY = 5;
-constexpr std::size_t CY = 6;
-constexpr std::size_t TY = 7;
-
 /// Below this an image of 2000 pixels moves by a twentieth of a pixel at its border: not worth a resampling.
 constexpr double SAME_FOCAL_LENGTH = 5e-5;
 /// Of an entry of P that is zero for rectified views: pixels for the first rows, and shares for the last.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/multiview/maps/confidence.h"
+#include "core/multiview/refine/cell_sums.h"
 
 namespace light_field_depth::multiview
 {
@@ -294,11 +295,11 @@ cv::Mat Solver::filled() const
   cv::Mat filled(disparity_.size(), CV_8UC1);
   for (int y = 0; y < filled.rows; ++y)
   {
-    const auto* const cells = share.ptr<float>(y / NoiseDiscount::CELL_PX);
+    const auto* const cells = share.ptr<float>(y / CELL_PX);
     auto* const row = filled.ptr<std::uint8_t>(y);
     for (int x = 0; x < filled.cols; ++x)
     {
-      row[x] = cells[x / NoiseDiscount::CELL_PX] < FILLED_BELOW_SHARE ? 255 : 0;
+      row[x] = cells[x / CELL_PX] < FILLED_BELOW_SHARE ? 255 : 0;
     }
   }
   return filled;
@@ -314,8 +315,6 @@ void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
   context.save("multiview_residual", linearization_.residual);
   context.save("multiview_disagreement", linearization_.disagreement);
   context.save("multiview_target", linearization_.target);
-  context.save("multiview_searched", searched_);
-  context.save("multiview_first_search", first_search_);
   const StageTimer timer(context, "confidence");
   estimateConfidence({disparity_, searched_, first_search_, linearization_, settings.noise_sigma},
                      context.pool, confidence_);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "core/multiview/refine/cell_sums.h"
 #include "core/multiview/refine/noise_discount_kernels.h"
 #include "core/multiview/refine/normal_equation_kernels.h"
 
@@ -16,19 +17,6 @@ constexpr int CELL_ROWS_PER_CHUNK = 8;
 constexpr int REACH_CELLS = 2;
 /// Where there is no noise every curvature is more than it adds.
 constexpr float TINY_NOISE = 1e-6F;
-
-int cells(int pixels)
-{
-  return (pixels + NoiseDiscount::CELL_PX - 1) / NoiseDiscount::CELL_PX;
-}
-
-void joinColumns(const std::vector<float>& columns, int width, float* row)
-{
-  for (int x = 0; x < width; ++x)
-  {
-    row[x / NoiseDiscount::CELL_PX] += columns[static_cast<std::size_t>(x)];
-  }
-}
 
 }  // namespace
 
@@ -72,7 +60,7 @@ void NoiseDiscount::sumCells(const Linearization& linearization, ThreadPool& poo
   const int height = linearization.weight.rows;
   for (cv::Mat* const sums : {&curvature_, &noise_, &share_})
   {
-    sums->create(cells(height), cells(width), CV_32FC1);
+    sums->create(cellCount(height), cellCount(width), CV_32FC1);
   }
   const auto sumRow = [&](int row)
   {
@@ -85,8 +73,8 @@ void NoiseDiscount::sumCells(const Linearization& linearization, ThreadPool& poo
     }
     std::fill_n(curvature_.ptr<float>(row), curvature_.cols, 0.0F);
     std::fill_n(noise_.ptr<float>(row), noise_.cols, 0.0F);
-    joinColumns(curvature, width, curvature_.ptr<float>(row));
-    joinColumns(noise, width, noise_.ptr<float>(row));
+    joinColumns(curvature, curvature_.ptr<float>(row));
+    joinColumns(noise, noise_.ptr<float>(row));
   };
   pool.parallelFor(0, curvature_.rows, CELL_ROWS_PER_CHUNK,
                    [&](int first, int last)

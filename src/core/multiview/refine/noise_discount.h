@@ -32,10 +32,8 @@ public:
   /// @param linearization its weight is the curvature on entry and the weight on return
   void apply(const NoiseDiscountSettings& settings, ThreadPool& pool, Linearization& linearization);
 
-  /// CV_32FC1, in cells of CELL_PX: the part of the data that counts about each, 0..1.
+  /// CV_32FC1, in cells of CELL_PX (cell_sums.h): the part of the data that counts about each, 0..1.
   const cv::Mat& share() const { return share_; }
-
-  static constexpr int CELL_PX = 4;
 
 private:
   using Scratch = std::vector<float>;

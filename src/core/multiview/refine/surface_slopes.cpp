@@ -17,15 +17,6 @@ constexpr int BOXES = 2;
 /// Keeps the mean defined where the image cuts a cell off from everything.
 constexpr float TINY_SHARE = 1e-6F;
 
-/// Adds the columns of each cell.
-void joinColumns(const std::vector<float>& columns, int width, int cell_px, float* cells)
-{
-  for (int x = 0; x < width; ++x)
-  {
-    cells[x / cell_px] += columns[static_cast<std::size_t>(x)];
-  }
-}
-
 }  // namespace
 
 void SurfaceSlopes::find(const cv::Mat& disparity, const cv::Mat& weight, const cv::Mat& guide_left,
@@ -33,7 +24,7 @@ void SurfaceSlopes::find(const cv::Mat& disparity, const cv::Mat& weight, const 
 {
   const int width = disparity.cols;
   const int height = disparity.rows;
-  const cv::Size cells((width + CELL_PX - 1) / CELL_PX, (height + CELL_PX - 1) / CELL_PX);
+  const cv::Size cells(cellCount(width), cellCount(height));
   for (Axis* const axis : {&left_, &above_})
   {
     axis->changes.create(cells, CV_32FC1);
@@ -64,8 +55,8 @@ void SurfaceSlopes::find(const cv::Mat& disparity, const cv::Mat& weight, const 
     }
     std::fill_n(axis.changes.ptr<float>(cell_row), cells.width, 0.0F);
     std::fill_n(axis.shares.ptr<float>(cell_row), cells.width, 0.0F);
-    joinColumns(changes, width, CELL_PX, axis.changes.ptr<float>(cell_row));
-    joinColumns(shares, width, CELL_PX, axis.shares.ptr<float>(cell_row));
+    joinColumns(changes, axis.changes.ptr<float>(cell_row));
+    joinColumns(shares, axis.shares.ptr<float>(cell_row));
   };
   pool.parallelFor(0, cells.height, CELL_ROWS_PER_CHUNK,
                    [&](int first, int last)

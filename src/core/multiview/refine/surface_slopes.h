@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "core/multiview/refine/cell_sums.h"
 #include "light_field_depth/core/thread_pool.h"
 
 namespace light_field_depth::multiview
@@ -22,7 +23,7 @@ struct SlopeSettings
 };
 
 /// How the disparity changes from pixel to pixel along surfaces: the robust mean of the changes that data
-/// confirm. Keeps its memory; one call at a time.
+/// confirm, on cells of CELL_PX. Keeps its memory; one call at a time.
 class SurfaceSlopes
 {
 public:
@@ -37,9 +38,6 @@ public:
   const float* above(int y) const { return above_.slopes.ptr<float>(y / CELL_PX); }
 
 private:
-  /// Slopes are alike over a few pixels.
-  static constexpr int CELL_PX = 4;
-
   struct Axis
   {
     cv::Mat changes;  // CV_32FC1, sums over cells
