@@ -9,7 +9,9 @@ namespace
 {
 /// Difference at or above which nothing is learnt; that of two unrelated pixels is about 1.1.
 constexpr float TRUNCATION = 1.5F;
+/// Labels of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int LABELS_PER_CHUNK = 4;
+constexpr float PIXEL_OF_CELL = 1.0F / (CELL_SIDE_PX * CELL_SIDE_PX);
 
 /// A displacement split into whole pixels and a fraction, and where it stays inside.
 struct Shift
@@ -88,11 +90,11 @@ private:
     }
   }
 
-  /// Mean cost of a pixel along the axis; where no view sees it, nothing is known.
-  float meanOf(float sum, int along) const
+  /// Mean cost of a pixel of a cell; where no view sees it, nothing is known.
+  float meanOfCell(float sum, int along) const
   {
     const float seen = seen_[static_cast<std::size_t>(along)];
-    return seen > 0.0F ? sum / seen : TRUNCATION;
+    return seen > 0.0F ? PIXEL_OF_CELL * sum / seen : TRUNCATION;
   }
 
   void gatherCells()
@@ -106,7 +108,7 @@ private:
       {
         const int left = CELL_SIDE_PX * x;
         const float sum = upper[left] + upper[left + 1] + lower[left] + lower[left + 1];
-        row[x] = 0.25F * meanOf(sum, axis_ == Axis::X ? left : CELL_SIDE_PX * y);
+        row[x] = meanOfCell(sum, axis_ == Axis::X ? left : CELL_SIDE_PX * y);
       }
     }
   }
