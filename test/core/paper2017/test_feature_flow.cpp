@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "core/paper2017/disparity_paths.h"
 #include "core/paper2017/feature_flow.h"
 #include "support/synthetic_scene.h"
 
@@ -36,34 +35,6 @@ std::vector<const View*> pointers(const std::vector<View>& views)
     result.push_back(&view);
   }
   return result;
-}
-
-TEST(DisparityPaths, FollowTheFlowAndLetTheNearestSurfaceKeepItsPath)
-{
-  const cv::Size size(16, 4);
-  SparseDisparity forward = nothing(size);
-  forward.disparity.at<float>(1, 9) = 3.0F;  // to x = 6
-  forward.confidence.at<float>(1, 9) = 1.0F;
-  forward.disparity.at<float>(1, 5) = -1.0F;  // to x = 6 as well, hidden by the other
-  forward.confidence.at<float>(1, 5) = 1.0F;
-  const SparseDisparity backward = nothing(size);
-  const PathLinks links = linkPaths({{1.0, 0.0}, {}}, forward.disparity, forward.confidence,
-                                    backward.disparity, backward.confidence);
-  EXPECT_EQ(links.predecessor[16 + 6], 16 + 9);
-  EXPECT_EQ(links.successor[16 + 9], 16 + 6);
-  EXPECT_EQ(links.successor[16 + 5], PathLinks::NONE);
-}
-
-TEST(DisparityPaths, JoinHomelessPixelsByTheirBackwardMatch)
-{
-  const cv::Size size(16, 4);
-  const SparseDisparity forward = nothing(size);
-  const SparseDisparity backward = everywhere(size, 2.0F);
-  const PathLinks links = linkPaths({{0.0, 1.0}, {}}, forward.disparity, forward.confidence,
-                                    backward.disparity, backward.confidence);
-  EXPECT_EQ(links.predecessor[0 * 16 + 3], 2 * 16 + 3);
-  EXPECT_EQ(links.successor[2 * 16 + 3], 0 * 16 + 3);
-  EXPECT_EQ(links.predecessor[2 * 16 + 3], PathLinks::NONE);
 }
 
 TEST(FeatureFlow, CarriesAMatchAlongItsPathToAViewThatHasNone)

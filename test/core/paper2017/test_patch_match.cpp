@@ -170,15 +170,5 @@ TEST(PatchMatch, BearsNoise)
   EXPECT_LT(errors(matched).second, 0.15);
 }
 
-TEST(PatchMatch, NamesOptionsThatCannotBeUsed)
-{
-  PatchMatchOptions options;
-  EXPECT_TRUE(validate(options).empty());
-  options.levels = 0;
-  options.confidence_sigma_px = 0.0;
-  ASSERT_EQ(validate(options).size(), 2U);
-  EXPECT_NE(validate(options)[0].find("cpm_levels"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace light_field_depth
