@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include <light_field_depth/core/pipeline.h>
-#include <light_field_depth/io/cloud_files.h>
+#include <light_field_depth/io/cloud_writer.h>
 #include <light_field_depth/io/dataset.h>
 
 int main(int argc, char** argv)
@@ -26,13 +26,17 @@ int main(int argc, char** argv)
 
     lfd::PipelineOptions options;
     options.multiview.preset = lfd::MultiviewPreset::Balanced;
+    options.dense_cloud.maps = lfd::DenseCloudOptions::MAPS_WITH_TIME;
     lfd::ProductRequest request;
     request.dense_cloud = true;  // every view's own pixels, fused
+    lfd::CloudWriter cloud(argv[2], lfd::CloudFormat::Ply);
+    request.dense_cloud_sink = [&cloud](const lfd::DensePoint* block, std::size_t count)
+    { cloud.write(block, count); };
 
     lfd::Pipeline pipeline;  // keeps threads and buffers; use it again for the next frame
     const lfd::PipelineResult result = pipeline.run(dataset.light_field, options, request);
 
-    const std::size_t points = lfd::writePly(argv[2], result.dense_cloud);
+    const std::size_t points = cloud.finish();
     std::cout << points << " points from " << result.estimate.views_used << " views in " << result.total_ms
               << " ms" << std::endl;
     return points > 0 ? EXIT_SUCCESS : EXIT_FAILURE;

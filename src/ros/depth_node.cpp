@@ -321,22 +321,29 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
         return points;
       });
   request.dense_cloud = (everything || subscribers.points_dense) && settings.dense_cloud;
-  request.dense_cloud_allocator = leftOutWhenTooLarge(
-      [&](std::size_t count)
-      {
-        const sensor_msgs::PointCloud2Ptr cloud = dense_clouds_.take();
-        ColoredPoint* const points = shapeDenseCloud(header, count, *cloud);
-        products.points_dense = cloud;
-        return points;
-      });
+  const std::size_t most_points =
+      light_field.views.size() * static_cast<std::size_t>(light_field.size().area());
+  const std::size_t every_nth =
+      settings.pipeline.dense_cloud.voxel_size_m > 0.0F ? 1 : thinningOfDenseCloud(most_points);
+  if (request.dense_cloud && subscribers.points_dense && light_field.calibration)
+  {
+    products.points_dense = dense_clouds_.take();
+    beginDenseCloud(header, *products.points_dense);
+  }
+  const DensePointSink to_message = [&](const DensePoint* points, std::size_t count)
+  { appendDensePoints(points, count, every_nth, *products.points_dense); };
+  request.dense_cloud_sink = to_message;
   if (everything)
   {
     // Into the result, which is saved; listeners get a copy.
     const PointAllocator points2 = std::exchange(request.organized_cloud_allocator, nullptr);
-    const PointAllocator points_dense = std::exchange(request.dense_cloud_allocator, nullptr);
+    request.dense_cloud_sink = nullptr;
     products.result = pipeline_.run(light_field, settings.pipeline, request);
     copyIfWanted(products.result.organized_cloud, subscribers.points2, points2);
-    copyIfWanted(products.result.dense_cloud, subscribers.points_dense && settings.dense_cloud, points_dense);
+    if (products.points_dense != nullptr)
+    {
+      to_message(products.result.dense_cloud.data(), products.result.dense_cloud.size());
+    }
   }
   else
   {

@@ -218,11 +218,31 @@ ColoredPoint* shapeOrganizedCloud(const std_msgs::Header& header, const cv::Size
                     false, "give smaller images.", cloud);
 }
 
-ColoredPoint* shapeDenseCloud(const std_msgs::Header& header, std::size_t points,
-                              sensor_msgs::PointCloud2& cloud)
+void beginDenseCloud(const std_msgs::Header& header, sensor_msgs::PointCloud2& cloud)
 {
-  return shapeCloud(header, static_cast<std::uint32_t>(points), 1, true,
-                    "raise dense_cloud_voxel_size_m or dense_cloud_min_confidence.", cloud);
+  shapeCloud(header, 0, 1, true, "raise dense_cloud_voxel_size_m.", cloud);
+}
+
+std::size_t thinningOfDenseCloud(std::size_t most_points)
+{
+  return (most_points * sizeof(ColoredPoint) + MAX_MESSAGE_BYTES - 1) / MAX_MESSAGE_BYTES;
+}
+
+void appendDensePoints(const DensePoint* points, std::size_t count, std::size_t every_nth,
+                       sensor_msgs::PointCloud2& cloud)
+{
+  const std::size_t before = cloud.data.size();
+  const std::size_t room = (MAX_MESSAGE_BYTES - std::min(before, MAX_MESSAGE_BYTES)) / sizeof(ColoredPoint);
+  const std::size_t kept = std::min((count + every_nth - 1) / every_nth, room);
+  cloud.data.resize(before + kept * sizeof(ColoredPoint));
+  auto* target = reinterpret_cast<ColoredPoint*>(cloud.data.data() + before);
+  for (std::size_t i = 0; i < kept; ++i)
+  {
+    const DensePoint& point = points[i * every_nth];
+    *target++ = {point.x, point.y, point.z, point.b, point.g, point.r, 0};
+  }
+  cloud.width += static_cast<std::uint32_t>(kept);
+  cloud.row_step = cloud.point_step * cloud.width;
 }
 
 }  // namespace light_field_depth

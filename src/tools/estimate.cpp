@@ -19,18 +19,25 @@ namespace
 namespace lfd = light_field_depth;
 namespace fs = std::filesystem;
 
+/// The dense cloud and the maps of the views are those of every view, unless some are asked for by name.
+bool showsAllViews(const lfd::EstimateArguments& arguments)
+{
+  return (arguments.dense || arguments.view_maps) && (arguments.views.empty() || arguments.views == "auto");
+}
+
 /// Frame after frame; the next one is read while one is solved.
 /// @return whether the verdict on none of them has a warning
 bool estimateSequence(const lfd::EstimateArguments& arguments, lfd::DatasetOptions options,
                       lfd::RunReport report, lfd::Pipeline& pipeline)
 {
-  lfd::EstimateInput input = lfd::readInput(arguments.input, options, report.options);
+  lfd::EstimateInput input =
+      lfd::readInput(arguments.input, options, report.options, showsAllViews(arguments));
   const std::vector<std::string> names = lfd::wantedFrames(arguments.frames, input.dataset.frames);
   const auto read = [&](std::size_t index)
   {
     lfd::DatasetOptions of_frame = options;
     of_frame.frame = names[index];
-    return lfd::readInput(arguments.input, of_frame, report.options);
+    return lfd::readInput(arguments.input, of_frame, report.options, showsAllViews(arguments));
   };
   // All frames are laid out like the first.
   options.order = input.dataset.order;
@@ -70,8 +77,9 @@ int estimate(const lfd::EstimateArguments& arguments)
   const lfd::DatasetOptions options = lfd::makeDatasetOptions(arguments);
   const bool fine =
       arguments.frames.empty()
-          ? lfd::estimateFrame(arguments, lfd::readInput(arguments.input, options, report.options),
-                               {arguments.output}, pipeline, report)
+          ? lfd::estimateFrame(
+                arguments, lfd::readInput(arguments.input, options, report.options, showsAllViews(arguments)),
+                {arguments.output}, pipeline, report)
           : estimateSequence(arguments, options, report, pipeline);
   return arguments.strict && !fine ? lfd::EXIT_DOUBTFUL : 0;
 }

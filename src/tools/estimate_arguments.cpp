@@ -52,6 +52,10 @@ void declare(CLI::App& app, EstimateArguments& arguments)
          "the next one")
       ->excludes("--frame");
   app.add_flag("--dense", arguments.dense, "also write the extra dense cloud of all views");
+  app.add_flag("--view-maps", arguments.view_maps,
+               "also write the map of every view to OUTPUT/view_maps: disparity, confidence, and what each "
+               "pixel comes "
+               "from (255 seen by the reference view, 128 solved in others, 0 filled)");
   app.add_option("--threads", arguments.threads, "threads to work with; 0 takes one per processor")
       ->check(CLI::Range(0, MAX_THREADS));
   app.add_flag("--save-intermediate", arguments.save_intermediate,
@@ -83,6 +87,7 @@ PipelineOptions makeOptions(const EstimateArguments& arguments)
 {
   PipelineOptions options;
   options.keep_filled = true;  // maps in files are dense
+  options.dense_cloud.maps = DenseCloudOptions::MAPS_WITH_TIME;
   if (!arguments.config.empty())
   {
     readOptionsFile(arguments.config, options);

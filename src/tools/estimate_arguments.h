@@ -31,6 +31,7 @@ struct EstimateArguments
   std::string frame;
   std::string frames;
   bool dense = false;
+  bool view_maps = false;
   int threads = 0;
   bool save_intermediate = false;
   OutputArguments output_files;

@@ -1,10 +1,12 @@
 #include "tools/estimate_frame.h"
 
+#include <optional>
 #include <string>
 
 #include "light_field_depth/core/thread_pool.h"
 #include "light_field_depth/evaluation/photometric_error.h"
 #include "light_field_depth/evaluation/verdict.h"
+#include "light_field_depth/io/cloud_writer.h"
 #include "light_field_depth/io/files.h"
 #include "light_field_depth/io/intermediate_files.h"
 #include "light_field_depth/io/result_folder.h"
@@ -22,7 +24,7 @@ namespace fs = std::filesystem;
 
 PipelineResult runPipeline(Pipeline& pipeline, const EstimateArguments& arguments, const FrameWork& frame,
                            const fs::path& results, const LightField& light_field,
-                           const PipelineOptions& options)
+                           const PipelineOptions& options, CloudWriter* dense_cloud)
 {
   ProgressBar progress;
   pipeline.setProgressSink(
@@ -39,7 +41,14 @@ PipelineResult runPipeline(Pipeline& pipeline, const EstimateArguments& argument
   ProductRequest request;
   request.depth = true;
   request.organized_cloud = true;
-  request.dense_cloud = arguments.dense;
+  request.dense_cloud = dense_cloud != nullptr;
+  request.dense_cloud_sink = [dense_cloud](const DensePoint* points, std::size_t count)
+  { dense_cloud->write(points, count); };
+  if (arguments.view_maps)
+  {
+    request.view_maps = [results, &light_field](const ViewMap& map)
+    { writeViewMap(results, light_field.views[map.view_index].grid, map); };
+  }
   return pipeline.run(light_field, options, request);
 }
 
@@ -90,8 +99,17 @@ bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& inpu
   const InterruptionGuard guard(&pipeline);
   ResultFolder results(frame.output);
   report.threads = pipeline.threads();
-  const PipelineResult result =
-      runPipeline(pipeline, arguments, frame, results.path(), dataset.light_field, report.options);
+  std::optional<CloudWriter> dense_cloud;
+  if (arguments.dense && dataset.light_field.calibration)
+  {
+    dense_cloud.emplace(results.path() / denseCloudName(output), output.cloud_format, output.axes);
+  }
+  const PipelineResult result = runPipeline(pipeline, arguments, frame, results.path(), dataset.light_field,
+                                            report.options, dense_cloud ? &*dense_cloud : nullptr);
+  if (dense_cloud)
+  {
+    dense_cloud->finish();
+  }
   ThreadPool pool(report.threads);
   describeResult(result, photometricError(dataset.light_field, result.estimate.disparity, pool), report);
 

@@ -7,11 +7,12 @@
 
 namespace light_field_depth
 {
-EstimateInput readInput(const std::string& folder, DatasetOptions options, const PipelineOptions& settings)
+EstimateInput readInput(const std::string& folder, DatasetOptions options, const PipelineOptions& settings,
+                        bool all_views)
 {
   const Stopwatch watch;
-  options.selection = [&settings](const LightField& without_images)
-  { return viewsToRead(without_images, settings); };
+  options.selection = [&](const LightField& without_images)
+  { return all_views ? ViewSelection::All : viewsToRead(without_images, settings); };
   EstimateInput input;
   input.dataset = readDataset(folder, options);
   input.decode_ms = watch.milliseconds();

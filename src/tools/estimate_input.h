@@ -17,9 +17,10 @@ struct EstimateInput
   double decode_ms = 0.0;
 };
 
-/// Reads the views that the method needs.
+/// Reads the views that the method needs, or all of them where they are to be seen in the dense cloud.
 /// @throw InputError
-EstimateInput readInput(const std::string& folder, DatasetOptions options, const PipelineOptions& settings);
+EstimateInput readInput(const std::string& folder, DatasetOptions options, const PipelineOptions& settings,
+                        bool all_views);
 
 /// The names of the frames from --frames among all of a sequence.
 /// @throw InputError

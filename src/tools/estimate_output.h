@@ -13,6 +13,7 @@ namespace light_field_depth
 struct OutputArguments
 {
   std::string formats = "pfm";
+  std::string cloud_format = "ply";
   bool y_up = false;
   bool preview = false;
 };

@@ -139,19 +139,34 @@ TEST(CloudMessages, AreWhatPclReads)
 TEST(CloudMessages, OfTheDenseCloudAreUnorganised)
 {
   sensor_msgs::PointCloud2 message;
-  *shapeDenseCloud(header(), 1, message) = points()[0];
-  EXPECT_EQ(message.height, 1U);
-  EXPECT_EQ(message.width, 1U);
-  EXPECT_TRUE(message.is_dense);
-  shapeDenseCloud(header(), 0, message);
+  beginDenseCloud(header(), message);
   EXPECT_EQ(message.data.size(), 0U);
+  std::vector<DensePoint> points(5);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i].z = static_cast<float>(i);
+    points[i].r = 7;
+  }
+  appendDensePoints(points.data(), 3, 1, message);
+  appendDensePoints(points.data(), 5, 2, message);
+  EXPECT_EQ(message.height, 1U);
+  EXPECT_EQ(message.width, 6U);
+  EXPECT_EQ(message.row_step, 6U * 16U);
+  EXPECT_EQ(message.data.size(), 6U * 16U);
+  EXPECT_TRUE(message.is_dense);
+  const auto* const kept = reinterpret_cast<const ColoredPoint*>(message.data.data());
+  EXPECT_EQ(kept[2].z, 2.0F);
+  EXPECT_EQ(kept[4].z, 2.0F) << "the second that was kept of five";
+  EXPECT_EQ(kept[5].z, 4.0F);
+  EXPECT_EQ(kept[5].r, 7);
 }
 
-TEST(CloudMessages, AreRefusedWhenRosWouldNotTransportThem)
+TEST(CloudMessages, AreThinnedToWhatRosTransports)
 {
-  sensor_msgs::PointCloud2 message;
-  EXPECT_THROW(shapeDenseCloud(header(), 62500001, message), InputError);
-  EXPECT_TRUE(message.data.empty());
+  EXPECT_EQ(thinningOfDenseCloud(0), 0U);
+  EXPECT_EQ(thinningOfDenseCloud(1), 1U);
+  EXPECT_EQ(thinningOfDenseCloud(62500000), 1U);
+  EXPECT_EQ(thinningOfDenseCloud(62500001), 2U);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct ViewDisparity
 {
   std::size_t view_index = 0;  ///< into LightField::views of the light field that was given to the estimator
   cv::Mat disparity;           ///< CV_32FC1, pixels per grid step; NaN where unknown
-  cv::Mat confidence;          ///< CV_32FC1, 0..1; 0 where the reference's disparity is filled
+  cv::Mat confidence;          ///< CV_32FC1, 0..1; 0 where the disparity is filled
 };
 
 /// What an estimator finds out about one light field.
@@ -37,7 +37,8 @@ struct DisparityEstimate
   DisparityRange range;
   /// How many views took part.
   std::size_t views_used = 0;
-  /// One map for each view that has one; only if EstimateRequest::view_disparities.
+  /// Maps that were each solved in a view of its own, the reference's first; as many as
+  /// EstimateRequest::solved_maps asks for and the views allow.
   std::vector<ViewDisparity> view_disparities;
 };
 
@@ -46,7 +47,9 @@ struct EstimateRequest
 {
   std::optional<DisparityRange> disparity_range;  ///< found from the images when absent
   ViewSelection views = ViewSelection::Auto;      ///< which views take part
-  bool view_disparities = false;  ///< also compute the maps of the other views, for the dense cloud
+  /// How many views to solve a map for, the reference's included, for the dense cloud: those that stand far
+  /// apart. 0 leaves DisparityEstimate::view_disparities empty.
+  std::size_t solved_maps = 0;
 };
 
 /// A method that finds the disparity of a light field. An estimator keeps its buffers from call to call; it

@@ -88,8 +88,10 @@ void visitOptions(Options& options, Visitor&& visit)
   visit("keep_filled", options.keep_filled);
   visit("min_depth_m", options.min_depth_m);
   visit("max_depth_m", options.max_depth_m);
+  visit("dense_maps", options.dense_cloud.maps);
   visit("dense_cloud_min_confidence", options.dense_cloud.min_confidence);
   visit("dense_cloud_voxel_size_m", options.dense_cloud.voxel_size_m);
+  visit("dense_cloud_min_views", options.dense_cloud.min_views);
   visitPaper2017Options(options.paper2017, visit);
   visitMultiviewOptions(options.multiview, visit);
 }

@@ -17,6 +17,7 @@
 #include "light_field_depth/core/point_cloud.h"
 #include "light_field_depth/core/run_context.h"
 #include "light_field_depth/core/thread_pool.h"
+#include "light_field_depth/core/view_maps.h"
 
 namespace light_field_depth
 {
@@ -68,9 +69,10 @@ struct ProductRequest
   bool depth = false;            ///< PipelineResult::depth
   bool organized_cloud = false;  ///< PipelineResult::organized_cloud
   bool dense_cloud = false;      ///< PipelineResult::dense_cloud
+  ViewMapSink view_maps;         ///< receives the map of every view; empty: none are made
   /// Where the points go; empty: into the vectors of the result.
   PointAllocator organized_cloud_allocator;
-  PointAllocator dense_cloud_allocator;  ///< likewise
+  DensePointSink dense_cloud_sink;  ///< where the points of the dense cloud go, block after block; likewise
 };
 
 /// The views that Pipeline::run() will use of a light field whose views need no images yet: the others need
@@ -84,7 +86,7 @@ struct PipelineResult
   cv::Mat depth;               ///< CV_32FC1 metres, NaN where unknown; empty without calibration
   // Both clouds are empty without calibration, and where the request has room for them.
   std::vector<ColoredPoint> organized_cloud;  ///< row-major, NaN where unknown
-  std::vector<ColoredPoint> dense_cloud;      ///< no NaN
+  std::vector<DensePoint> dense_cloud;        ///< no NaN
   std::vector<StageTime> stage_times;         ///< in the order in which the stages began
   double total_ms = 0.0;                      ///< of the whole run
 };

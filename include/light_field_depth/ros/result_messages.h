@@ -60,10 +60,15 @@ sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header,
 ColoredPoint* shapeOrganizedCloud(const std_msgs::Header& header, const cv::Size& size,
                                   sensor_msgs::PointCloud2& cloud);
 
-/// The same, unorganised, without NaN, is_dense true. @return where its points go
-/// @throw InputError if the message would be larger than ROS transports (1e9 bytes)
-ColoredPoint* shapeDenseCloud(const std_msgs::Header& header, std::size_t points,
-                              sensor_msgs::PointCloud2& cloud);
+/// Begins an unorganised cloud of the same points, without NaN, is_dense true.
+void beginDenseCloud(const std_msgs::Header& header, sensor_msgs::PointCloud2& cloud);
+
+/// Of how many points one has to be kept for at most so many points to fit into a message (1e9 bytes).
+std::size_t thinningOfDenseCloud(std::size_t most_points);
+
+/// Appends every nth of the points to a cloud that was begun, as long as ROS transports it.
+void appendDensePoints(const DensePoint* points, std::size_t count, std::size_t every_nth,
+                       sensor_msgs::PointCloud2& cloud);
 
 }  // namespace light_field_depth
 

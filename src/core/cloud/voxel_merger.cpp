@@ -5,12 +5,14 @@
 #include <limits>
 #include <numeric>
 
-namespace light_field_depth
+namespace light_field_depth::cloud
 {
 namespace
 {
 constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t MIN_SLOTS = 1024;
+/// What a point of confidence 0 weighs, beside 1 of a sure one. As in the fusion of maps.
+constexpr float LEAST_WEIGHT = 0.05F;
 
 std::uint64_t hashOf(const VoxelKey& key)
 {
@@ -26,28 +28,58 @@ std::size_t shareOf(const VoxelKey& key, std::size_t shares)
   return static_cast<std::size_t>(hashOf(key) >> 48) % shares;
 }
 
-void add(const VoxelSum& more, VoxelSum& sum)
+void addPoint(const DensePoint& point, VoxelSum& sum)
 {
-  sum.count += more.count;
-  sum.x += more.x;
-  sum.y += more.y;
-  sum.z += more.z;
-  sum.b += more.b;
-  sum.g += more.g;
-  sum.r += more.r;
+  const float weight = LEAST_WEIGHT + point.confidence;
+  const auto precise = static_cast<double>(weight);
+  sum.parts = 1;
+  sum.weight += precise;
+  sum.position[0] += precise * point.x;
+  sum.position[1] += precise * point.y;
+  sum.position[2] += precise * point.z;
+  sum.normal[0] += weight * point.normal_x;
+  sum.normal[1] += weight * point.normal_y;
+  sum.normal[2] += weight * point.normal_z;
+  sum.colour[0] += weight * static_cast<float>(point.b);
+  sum.colour[1] += weight * static_cast<float>(point.g);
+  sum.colour[2] += weight * static_cast<float>(point.r);
+  sum.confidence += weight * point.confidence;
+  sum.votes = std::max(sum.votes, point.views);
 }
 
-ColoredPoint meanOf(const VoxelSum& sum)
+void addSum(const VoxelSum& more, VoxelSum& sum)
 {
-  const auto level = [&sum](std::uint64_t total)
-  { return static_cast<std::uint8_t>((total + sum.count / 2) / sum.count); };
-  return {static_cast<float>(sum.x / sum.count),
-          static_cast<float>(sum.y / sum.count),
-          static_cast<float>(sum.z / sum.count),
-          level(sum.b),
-          level(sum.g),
-          level(sum.r),
-          0};
+  sum.parts += more.parts;
+  sum.weight += more.weight;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    sum.position[i] += more.position[i];
+    sum.normal[i] += more.normal[i];
+    sum.colour[i] += more.colour[i];
+  }
+  sum.confidence += more.confidence;
+  sum.votes = std::max(sum.votes, more.votes);
+}
+
+DensePoint meanOf(const VoxelSum& sum)
+{
+  const auto weight = static_cast<float>(sum.weight);
+  const auto level = [weight](float total)
+  { return static_cast<std::uint8_t>(std::clamp(total / weight + 0.5F, 0.0F, 255.0F)); };
+  const float length = std::sqrt(sum.normal[0] * sum.normal[0] + sum.normal[1] * sum.normal[1] +
+                                 sum.normal[2] * sum.normal[2]);
+  const float scale = length > 0.0F ? 1.0F / length : 0.0F;
+  return {static_cast<float>(sum.position[0] / sum.weight),
+          static_cast<float>(sum.position[1] / sum.weight),
+          static_cast<float>(sum.position[2] / sum.weight),
+          scale * sum.normal[0],
+          scale * sum.normal[1],
+          scale * sum.normal[2],
+          level(sum.colour[2]),
+          level(sum.colour[1]),
+          level(sum.colour[0]),
+          sum.votes,
+          sum.confidence / weight};
 }
 
 std::int32_t cellOf(double position)
@@ -57,12 +89,6 @@ std::int32_t cellOf(double position)
   const double inside = std::clamp(position, FIRST, LAST);
   const auto truncated = static_cast<std::int32_t>(inside);
   return truncated - static_cast<std::int32_t>(inside < truncated);
-}
-
-VoxelKey keyOf(const ColoredPoint& point, double voxels_per_metre)
-{
-  return {cellOf(point.x * voxels_per_metre), cellOf(point.y * voxels_per_metre),
-          cellOf(point.z * voxels_per_metre)};
 }
 
 /// Memory that parts and frames share.
@@ -76,7 +102,7 @@ VoxelTable& tableOfThisThread()
 
 VoxelTable::VoxelTable() : slots_(MIN_SLOTS, NONE) {}
 
-inline void VoxelTable::clear()
+void VoxelTable::clear()
 {
   std::fill(slots_.begin(), slots_.end(), NONE);
   sums_.clear();
@@ -105,7 +131,8 @@ inline VoxelSum& VoxelTable::at(const VoxelKey& key)
       slot = find(key);
     }
     slots_[slot] = static_cast<std::uint32_t>(sums_.size());
-    sums_.push_back({key, 0, 0.0, 0.0, 0.0, 0, 0, 0});
+    sums_.emplace_back();
+    sums_.back().key = key;
   }
   return sums_[slots_[slot]];
 }
@@ -119,83 +146,69 @@ void VoxelTable::grow()
   }
 }
 
-VoxelMerger::VoxelMerger(std::size_t parts, float voxel_size_m)
-    : voxels_per_metre_(1.0 / voxel_size_m), parts_(parts)
-{
-}
+VoxelMerger::VoxelMerger(float voxel_size_m) : voxels_per_metre_(1.0 / voxel_size_m) {}
 
-VoxelMerger::Table::Table(VoxelMerger& merger) : merger_(merger), voxels_(tableOfThisThread())
+void VoxelMerger::sumUp(const std::vector<DensePoint>& points, Part& part) const
 {
-  voxels_.clear();
-}
-
-void VoxelMerger::Table::add(const ColoredPoint* begin, const ColoredPoint* end)
-{
-  for (const ColoredPoint* point = begin; point != end; ++point)
+  VoxelTable& table = tableOfThisThread();
+  table.clear();
+  for (const DensePoint& point : points)
   {
-    const VoxelKey key = keyOf(*point, merger_.voxels_per_metre_);
-    light_field_depth::add({key, 1, point->x, point->y, point->z, point->b, point->g, point->r},
-                           voxels_.at(key));
+    addPoint(point, table.at({cellOf(point.x * voxels_per_metre_), cellOf(point.y * voxels_per_metre_),
+                              cellOf(point.z * voxels_per_metre_)}));
+  }
+  part.begins.fill(0);
+  for (const VoxelSum& sum : table.sums())
+  {
+    ++part.begins[shareOf(sum.key, SHARES) + 1];
+  }
+  std::partial_sum(part.begins.begin(), part.begins.end(), part.begins.begin());
+  std::array<std::size_t, SHARES + 1> next = part.begins;
+  part.sums.resize(table.sums().size());
+  for (const VoxelSum& sum : table.sums())
+  {
+    part.sums[next[shareOf(sum.key, SHARES)]++] = sum;
   }
 }
 
-void VoxelMerger::Table::store(std::size_t part) const
+void VoxelMerger::add(const std::vector<Part>& parts, std::size_t count, ThreadPool& pool)
 {
-  const std::vector<VoxelSum>& found = voxels_.sums();
-  auto& [sums, begins] = merger_.parts_[part];
-  begins.fill(0);
-  for (const VoxelSum& sum : found)
-  {
-    ++begins[shareOf(sum.key, SHARES) + 1];
-  }
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  std::array<std::size_t, SHARES + 1> next = begins;
-  sums.resize(found.size());
-  for (const VoxelSum& sum : found)
-  {
-    sums[next[shareOf(sum.key, SHARES)]++] = sum;
-  }
+  pool.parallelFor(0, static_cast<int>(SHARES), 1,
+                   [&](int first, int last)
+                   {
+                     for (auto share = static_cast<std::size_t>(first);
+                          share < static_cast<std::size_t>(last); ++share)
+                     {
+                       for (std::size_t i = 0; i < count; ++i)
+                       {
+                         const Part& part = parts[i];
+                         for (std::size_t k = part.begins[share]; k < part.begins[share + 1]; ++k)
+                         {
+                           addSum(part.sums[k], merged_[share].at(part.sums[k].key));
+                         }
+                       }
+                     }
+                   });
 }
 
-VoxelTable VoxelMerger::mergedShare(std::size_t share) const
+void VoxelMerger::emit(std::uint32_t min_parts, const DensePointSink& sink) const
 {
-  VoxelTable table;
-  for (const Part& part : parts_)
+  std::vector<DensePoint> points;
+  for (const VoxelTable& table : merged_)
   {
-    for (std::size_t i = part.begins[share]; i < part.begins[share + 1]; ++i)
+    points.clear();
+    for (const VoxelSum& sum : table.sums())
     {
-      add(part.sums[i], table.at(part.sums[i].key));
+      if (sum.parts >= min_parts)
+      {
+        points.push_back(meanOf(sum));
+      }
+    }
+    if (!points.empty())
+    {
+      sink(points.data(), points.size());
     }
   }
-  return table;
 }
 
-void VoxelMerger::merge(ThreadPool& pool, const PointAllocator& room) const
-{
-  std::array<VoxelTable, SHARES> merged;
-  std::array<std::size_t, SHARES + 1> begins{};
-  pool.parallelFor(0, SHARES, 1,
-                   [&](int first, int /*last*/)
-                   {
-                     const auto share = static_cast<std::size_t>(first);
-                     merged[share] = mergedShare(share);
-                   });
-  for (std::size_t share = 0; share < SHARES; ++share)
-  {
-    begins[share + 1] = begins[share] + merged[share].sums().size();
-  }
-  ColoredPoint* const points = room(begins.back());
-  if (points == nullptr)
-  {
-    return;
-  }
-  pool.parallelFor(0, SHARES, 1,
-                   [&](int first, int /*last*/)
-                   {
-                     const auto share = static_cast<std::size_t>(first);
-                     const std::vector<VoxelSum>& sums = merged[share].sums();
-                     std::transform(sums.begin(), sums.end(), points + begins[share], meanOf);
-                   });
-}
-
-}  // namespace light_field_depth
+}  // namespace light_field_depth::cloud

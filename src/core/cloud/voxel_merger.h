@@ -9,7 +9,7 @@
 #include "light_field_depth/core/point_cloud.h"
 #include "light_field_depth/core/thread_pool.h"
 
-namespace light_field_depth
+namespace light_field_depth::cloud
 {
 /// The cube of a cubic grid that a point lies in. Where the grid ends, its outermost cubes go on for ever.
 struct VoxelKey
@@ -21,17 +21,17 @@ struct VoxelKey
   bool operator==(const VoxelKey& other) const { return x == other.x && y == other.y && z == other.z; }
 };
 
-/// The points of one voxel so far: as many as fit into a cloud, so their levels need more than 32 bits.
+/// The points of one voxel so far, weighted.
 struct VoxelSum
 {
   VoxelKey key;
-  std::uint32_t count;
-  double x;
-  double y;
-  double z;
-  std::uint64_t b;
-  std::uint64_t g;
-  std::uint64_t r;
+  std::uint32_t parts = 0;  ///< that have a point here
+  double weight = 0.0;
+  std::array<double, 3> position{};
+  std::array<float, 3> normal{};
+  std::array<float, 3> colour{};  ///< b, g, r
+  float confidence = 0.0F;
+  std::uint8_t votes = 0;  ///< the most of any point
 };
 
 /// Sums by key, in the order in which the keys came.
@@ -55,23 +55,15 @@ private:
   std::vector<VoxelSum> sums_;
 };
 
-/// Merges the points of each voxel into their mean, in two steps: first the points of each part of the cloud,
-/// the parts side by side, then voxels that several parts have met. The result depends on the points, their
-/// order and their division into parts alone.
+/// Merges the points of each voxel into their weighted mean. Each view's points are a part; parts are summed
+/// up side by side, then added in their order. The result depends on the points, their order and their
+/// division into parts alone.
 class VoxelMerger
 {
 public:
-  /// @param parts that the cloud is made of
   /// @param voxel_size_m edge of the cubes, > 0
-  VoxelMerger(std::size_t parts, float voxel_size_m);
+  explicit VoxelMerger(float voxel_size_m);
 
-  /// The voxels of one part, on one thread; at most one at a time in each thread.
-  class Table;
-
-  /// Once every part has been stored: one point a voxel.
-  void merge(ThreadPool& pool, const PointAllocator& room) const;
-
-private:
   /// Shares of the space, by a hash of the key, that are merged independently of each other.
   static constexpr std::size_t SHARES = 16;
 
@@ -79,30 +71,23 @@ private:
   struct Part
   {
     std::vector<VoxelSum> sums;
-    std::array<std::size_t, SHARES + 1> begins;
+    std::array<std::size_t, SHARES + 1> begins{};
   };
 
-  VoxelTable mergedShare(std::size_t share) const;
+  /// Thread safe. @param part memory that it brings is used again
+  void sumUp(const std::vector<DensePoint>& points, Part& part) const;
 
-  double voxels_per_metre_;
-  std::vector<Part> parts_;
-};
+  /// Adds parts one after the other, the shares in parallel.
+  void add(const std::vector<Part>& parts, std::size_t count, ThreadPool& pool);
 
-class VoxelMerger::Table
-{
-public:
-  explicit Table(VoxelMerger& merger);
-
-  void add(const ColoredPoint* begin, const ColoredPoint* end);
-
-  /// What has been added is one part.
-  void store(std::size_t part) const;
+  /// One point for each voxel that has points of at least min_parts parts.
+  void emit(std::uint32_t min_parts, const DensePointSink& sink) const;
 
 private:
-  VoxelMerger& merger_;
-  VoxelTable& voxels_;
+  double voxels_per_metre_;
+  std::array<VoxelTable, SHARES> merged_;
 };
 
-}  // namespace light_field_depth
+}  // namespace light_field_depth::cloud
 
 #endif  // LIGHT_FIELD_DEPTH_SRC_CORE_CLOUD_VOXEL_MERGER_H

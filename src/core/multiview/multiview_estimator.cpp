@@ -7,11 +7,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/light_field/half_resolution.h"
+#include "core/light_field/spread_views.h"
 #include "core/light_field/view_set.h"
 #include "core/multiview/expected_stages.h"
 #include "core/multiview/maps/left_right_check.h"
 #include "core/multiview/maps/upsampling.h"
-#include "core/multiview/maps/view_maps.h"
 #include "core/multiview/pair.h"
 #include "core/multiview/scene_measurement.h"
 #include "core/multiview/sequence.h"
@@ -38,6 +38,17 @@ constexpr int FAST_VIEWS_PER_ARM = 3;
 bool isLarge(const LightField& light_field)
 {
   return light_field.size().area() > LARGE_PIXELS;
+}
+
+/// Confidence that is 0 where the disparity is filled: no such pixel enters the cloud.
+cv::Mat withoutFilled(const DisparityEstimate& estimate)
+{
+  cv::Mat seen = estimate.confidence.clone();
+  if (!estimate.filled.empty())
+  {
+    seen.setTo(0.0F, estimate.filled);
+  }
+  return seen;
 }
 
 }  // namespace
@@ -68,7 +79,7 @@ struct MultiviewEstimator::FrameMemory
   multiview::HalfResolution turned_half;     ///< a pair as its other view sees it
   multiview::HalfResolution turned_quarter;  ///< the same of a large pair
   multiview::Solver turned_solver;
-  std::vector<ViewDisparity> view_maps;
+  std::unique_ptr<MultiviewEstimator> other_views;  ///< solves maps of other views for the dense cloud
 };
 
 MultiviewEstimator::MultiviewEstimator(MultiviewOptions options)
@@ -97,15 +108,46 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
     solve(chosen, request, context, estimate);
     estimate.views_used = chosen.views.size();
   }
-  if (request.view_disparities)
+  if (request.solved_maps > 0)
   {
-    const StageTimer timer(context, "view_maps");
-    cv::Mat seen = estimate.confidence.clone();
-    seen.setTo(0.0F, estimate.filled);
-    multiview::warpToViews(light_field, estimate.disparity, seen, context.pool, memory_->view_maps);
-    estimate.view_disparities = memory_->view_maps;
+    solveOtherViews(light_field, chosen, request.solved_maps, context, estimate);
   }
   return estimate;
+}
+
+/// The same views as others of them see them: each is solved like a light field of its own, in the range that
+/// is known.
+void MultiviewEstimator::solveOtherViews(const LightField& light_field, const LightField& chosen,
+                                         std::size_t maps, RunContext& context, DisparityEstimate& estimate)
+{
+  estimate.view_disparities = {{light_field.reference_index, estimate.disparity, withoutFilled(estimate)}};
+  const std::vector<std::size_t> views = spreadViews(chosen, maps);
+  if (views.size() < 2)
+  {
+    return;
+  }
+  const StageTimer timer(context, "view_maps");
+  if (!memory_->other_views)
+  {
+    memory_->other_views = std::make_unique<MultiviewEstimator>();
+  }
+  MultiviewOptions options = options_;
+  options.temporal = false;
+  memory_->other_views->setOptions(options);
+  EstimateRequest request;
+  request.disparity_range = estimate.range;
+  request.views = ViewSelection::All;
+  RunContext apart(context.pool);
+  for (std::size_t i = 1; i < views.size(); ++i)
+  {
+    const DisparityEstimate other =
+        memory_->other_views->estimate(turnedTo(chosen, views[i]), request, apart);
+    const auto place =
+        std::find_if(light_field.views.begin(), light_field.views.end(),
+                     [&](const View& view) { return view.grid == chosen.views[views[i]].grid; });
+    estimate.view_disparities.push_back(
+        {static_cast<std::size_t>(place - light_field.views.begin()), other.disparity, withoutFilled(other)});
+  }
 }
 
 LightField MultiviewEstimator::reduced(const LightField& chosen, RunContext& context)

@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_MULTIVIEW_ESTIMATOR_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_MULTIVIEW_ESTIMATOR_H
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +43,8 @@ private:
               DisparityEstimate& estimate);
   void solveCoarseToFine(const LightField& chosen, const multiview::SceneMeasures& measures,
                          RunContext& context);
+  void solveOtherViews(const LightField& light_field, const LightField& chosen, std::size_t maps,
+                       RunContext& context, DisparityEstimate& estimate);
   void keepResult(double unit, DisparityEstimate& estimate) const;
   void confirmPair(const LightField& chosen, const multiview::SceneMeasures& measures, RunContext& context,
                    DisparityEstimate& estimate);

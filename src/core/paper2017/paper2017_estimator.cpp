@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/light_field/spread_views.h"
 #include "core/paper2017/disparity_fusion.h"
 #include "core/paper2017/volume_matches.h"
 #include "light_field_depth/core/enum_names.h"
@@ -118,6 +119,7 @@ private:
   cv::Mat refine(const cv::Mat& disparity);
   std::vector<std::size_t> usedViews() const;
   std::vector<ViewDisparity> viewDisparities(const DenseDisparity& reference) const;
+  ViewDisparity viewDisparity(std::size_t index, const DenseDisparity& reference) const;
 
   LightField light_field_;
   const EstimateRequest& request_;
@@ -197,26 +199,37 @@ cv::Mat Run::refine(const cv::Mat& disparity)
 
 std::vector<ViewDisparity> Run::viewDisparities(const DenseDisparity& reference) const
 {
-  std::vector<ViewDisparity> maps = {
-      {light_field_.reference_index, reference.disparity, reference.confidence}};
-  std::vector<bool> done(light_field_.views.size(), false);
-  done[light_field_.reference_index] = true;
-  for (std::size_t v = 0; v < volumes_.size(); ++v)
+  LightField used = light_field_;
+  used.views.clear();
+  std::vector<std::size_t> indices = usedViews();
+  for (const std::size_t index : indices)
   {
-    for (std::size_t i = 0; i < dense_[v].size(); ++i)
-    {
-      const std::size_t index = volumes_[v].view_indices[i];
-      if (!done[index])
-      {
-        const View& view = light_field_.views[index];
-        maps.push_back({index,
-                        withRefined(dense_[v][i].disparity, warpFromReference(reference, view).disparity),
-                        dense_[v][i].confidence});
-        done[index] = true;
-      }
-    }
+    used.reference_index = index == light_field_.reference_index ? used.views.size() : used.reference_index;
+    used.views.push_back(light_field_.views[index]);
+  }
+  std::vector<ViewDisparity> maps;
+  for (const std::size_t chosen : spreadViews(used, request_.solved_maps))
+  {
+    maps.push_back(viewDisparity(indices[chosen], reference));
   }
   return maps;
+}
+
+ViewDisparity Run::viewDisparity(std::size_t index, const DenseDisparity& reference) const
+{
+  for (std::size_t v = 0; v < volumes_.size() && index != light_field_.reference_index; ++v)
+  {
+    const std::vector<std::size_t>& members = volumes_[v].view_indices;
+    const auto place = std::find(members.begin(), members.end(), index);
+    if (place != members.end())
+    {
+      const DenseDisparity& own = dense_[v][static_cast<std::size_t>(place - members.begin())];
+      return {index,
+              withRefined(own.disparity, warpFromReference(reference, light_field_.views[index]).disparity),
+              own.confidence};
+    }
+  }
+  return {light_field_.reference_index, reference.disparity, reference.confidence};
 }
 
 DisparityEstimate Run::estimate()
@@ -229,7 +242,7 @@ DisparityEstimate Run::estimate()
   estimate.confidence = fused.confidence;
   estimate.range = request_.disparity_range.value_or(rangeOf(estimate.disparity));
   estimate.views_used = usedViews().size();
-  if (request_.view_disparities)
+  if (request_.solved_maps > 0)
   {
     const StageTimer timer(context_, "view_maps");
     estimate.view_disparities = viewDisparities({estimate.disparity, estimate.confidence});

@@ -186,9 +186,10 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
     {
       map.disparity = limited(map.disparity);
     }
+    const DensePointSink into_result = [&result](const DensePoint* points, std::size_t count)
+    { result.dense_cloud.insert(result.dense_cloud.end(), points, points + count); };
     denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_,
-               allocatorOr(request.dense_cloud_allocator, result.dense_cloud));
-    result.estimate.view_disparities.clear();  // so that the next frame may have their memory
+               request.dense_cloud_sink ? request.dense_cloud_sink : into_result);
   }
 }
 
@@ -209,13 +210,19 @@ PipelineResult Pipeline::run(const LightField& light_field, const PipelineOption
   EstimateRequest estimate_request;
   estimate_request.disparity_range = options.disparity_range;
   estimate_request.views = options.views;
-  estimate_request.view_disparities = request.dense_cloud && calibrated;
+  const bool maps_wanted = (request.dense_cloud && calibrated) || request.view_maps;
+  estimate_request.solved_maps = maps_wanted ? static_cast<std::size_t>(options.dense_cloud.maps) : 0;
 
   // The clouds and the estimate see the same bytes: those of 16 bits are converted once.
   const bool colours = calibrated && (request.organized_cloud || request.dense_cloud);
   const LightField shown = colours ? toEightBit(light_field) : light_field;
   PipelineResult result;
   result.estimate = estimatorFor(options).estimate(shown, estimate_request, context);
+  if (request.view_maps)
+  {
+    const StageTimer timer(context, "maps_of_views");
+    viewMaps(shown, result.estimate.view_disparities, options.dense_cloud, pool_, request.view_maps);
+  }
   if (calibrated)
   {
     unproject(shown, options, request, context, result);

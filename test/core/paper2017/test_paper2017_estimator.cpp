@@ -103,7 +103,7 @@ TEST(Paper2017, DoesNotDependOnThreadsOrEarlierRuns)
 {
   const auto input = standardInput(settingsOf(testing::crossPositions(5, 5)));
   EstimateRequest request;
-  request.view_disparities = true;
+  request.solved_maps = 9;
   const DisparityEstimate one = estimate(input.light_field, {}, request, 1);
   ThreadPool pool(3);
   RunContext context(pool);
@@ -121,7 +121,7 @@ TEST(Paper2017, GivesAMapForEveryViewInItsOwnPixels)
   const SceneSettings settings = settingsOf(testing::crossPositions(5, 5));
   const auto input = standardInput(settings);
   EstimateRequest request;
-  request.view_disparities = true;
+  request.solved_maps = 9;
   const DisparityEstimate result = estimate(input.light_field, {}, request);
   ASSERT_EQ(result.view_disparities.size(), 9U);
   std::set<std::size_t> seen;

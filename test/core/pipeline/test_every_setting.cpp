@@ -69,7 +69,7 @@ bool isTestedElsewhere(const std::string& name)
 {
   return name == "method" || name == "multiview_temporal" || name == "multiview_registration" ||
          name == "min_confidence" || name == "keep_filled" || name == "min_depth_m" ||
-         name == "max_depth_m" || name == "cpm_min_region_seeds" || name.rfind("dense_cloud", 0) == 0;
+         name == "max_depth_m" || name == "cpm_min_region_seeds" || name.rfind("dense_", 0) == 0;
 }
 
 class EverySetting : public ::testing::Test

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/cloud/surface_fusion.h"
+#include "core/cloud/surface_map.h"
+#include "core/cloud/unprojection.h"
+#include "core/cloud/voxel_merger.h"
+#include "light_field_depth/core/point_cloud.h"
+
+namespace light_field_depth
+{
+namespace
+{
+/// The direction of a plane of disparities: n . (X - C) = f B for all its points.
+/// @param absolute d + d_inf at the pixel
+class NormalOfSlope
+{
+public:
+  NormalOfSlope(const View& view, const Calibration& calibration)
+      : focal_length_px_(static_cast<float>(calibration.focal_length_px)),
+        principal_point_px_(cloud::cameraOf(view, calibration).principal_point_px)
+  {
+  }
+
+  void set(int x, int y, float absolute, float slope_x, float slope_y, DensePoint& point) const
+  {
+    // 1 / Z is linear in the pixel: f B / Z = absolute + slope . (p - p0). With p = c + f X / Z this is a
+    // plane.
+    const float at_centre = absolute - slope_x * (static_cast<float>(x) - principal_point_px_.x) -
+                            slope_y * (static_cast<float>(y) - principal_point_px_.y);
+    const float normal_x = focal_length_px_ * slope_x;
+    const float normal_y = focal_length_px_ * slope_y;
+    const float scale = -1.0F / std::sqrt(normal_x * normal_x + normal_y * normal_y + at_centre * at_centre);
+    point.normal_x = scale * normal_x;
+    point.normal_y = scale * normal_y;
+    point.normal_z = scale * at_centre;
+  }
+
+private:
+  float focal_length_px_;
+  cv::Point2f principal_point_px_;
+};
+
+/// The views of a batch, each with memory of its own.
+struct Slot
+{
+  cloud::FusionScratch scratch;
+  cloud::FusedView fused;
+  std::vector<DensePoint> points;
+};
+
+void unproject(const cloud::FusedView& fused, const View& view, const Calibration& calibration,
+               std::vector<DensePoint>& points)
+{
+  const cloud::RowUnprojection unprojection(view, calibration);
+  const NormalOfSlope normal(view, calibration);
+  const auto offset_px = static_cast<float>(calibration.disparity_offset_px);
+  points.resize(fused.disparity.total());
+  DensePoint* point = points.data();
+  for (int y = 0; y < fused.disparity.rows; ++y)
+  {
+    const auto* const disparity = fused.disparity.ptr<float>(y);
+    const auto* const confidence = fused.confidence.ptr<float>(y);
+    const auto* const slope_x = fused.slope_x.ptr<float>(y);
+    const auto* const slope_y = fused.slope_y.ptr<float>(y);
+    const auto* const votes = fused.votes.ptr<std::uint8_t>(y);
+    for (int x = 0; x < fused.disparity.cols; ++x)
+    {
+      if (std::isnan(disparity[x]))
+      {
+        continue;
+      }
+      const ColoredPoint place = unprojection.point(y, x, disparity[x]);
+      if (std::isnan(place.z))
+      {
+        continue;
+      }
+      point->x = place.x;
+      point->y = place.y;
+      point->z = place.z;
+      normal.set(x, y, disparity[x] + offset_px, slope_x[x], slope_y[x], *point);
+      point->confidence = confidence[x];
+      point->b = place.b;
+      point->g = place.g;
+      point->r = place.r;
+      point->views = votes[x];
+      ++point;
+    }
+  }
+  points.resize(static_cast<std::size_t>(point - points.data()));
+}
+
+}  // namespace
+
+std::vector<std::string> validate(const DenseCloudOptions& options)
+{
+  std::vector<std::string> problems;
+  if (options.maps < 1 || options.maps > static_cast<int>(cloud::MAX_FUSED_MAPS))
+  {
+    problems.push_back("dense_maps is " + std::to_string(options.maps) + "; it must be between 1 and " +
+                       std::to_string(cloud::MAX_FUSED_MAPS) + ".");
+  }
+  if (!(options.min_confidence >= 0.0F && options.min_confidence <= 1.0F))
+  {
+    problems.push_back("dense_cloud.min_confidence is " + std::to_string(options.min_confidence) +
+                       "; it must be between 0 and 1.");
+  }
+  if (!(options.voxel_size_m >= 0.0F) || std::isinf(options.voxel_size_m))
+  {
+    problems.push_back("dense_cloud.voxel_size_m is " + std::to_string(options.voxel_size_m) +
+                       "; it must be 0 (keep every point) or a positive length in metres.");
+  }
+  if (options.min_views < 1)
+  {
+    problems.push_back("dense_cloud.min_views is " + std::to_string(options.min_views) +
+                       "; it must be at least 1.");
+  }
+  return problems;
+}
+
+void denseCloud(const LightField& light_field, const std::vector<ViewDisparity>& maps,
+                const DenseCloudOptions& options, ThreadPool& pool, const DensePointSink& sink)
+{
+  if (maps.empty())
+  {
+    return;
+  }
+  const LightField shown = toEightBit(light_field);
+  const cloud::Tolerance tolerance = cloud::toleranceFor(shown, cloud::rangeOf(maps));
+  const std::vector<cloud::SurfaceMap> surfaces = cloud::makeSurfaceMaps(shown, maps, tolerance, pool);
+  std::optional<cloud::VoxelMerger> merger;
+  if (options.voxel_size_m > 0.0F)
+  {
+    merger.emplace(options.voxel_size_m);
+  }
+  // Batches of as many views as there are threads.
+  const std::size_t views = shown.views.size();
+  std::vector<Slot> slots(std::min(views, static_cast<std::size_t>(pool.threads())));
+  std::vector<cloud::VoxelMerger::Part> parts(merger ? slots.size() : 0);
+  for (std::size_t first = 0; first < views; first += slots.size())
+  {
+    const std::size_t count = std::min(slots.size(), views - first);
+    pool.parallelFor(0, static_cast<int>(count), 1,
+                     [&](int begin, int end)
+                     {
+                       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+                       {
+                         const View& view = shown.views[first + i];
+                         Slot& slot = slots[i];
+                         cloud::fuseView(surfaces, view, tolerance, options.min_confidence, slot.scratch,
+                                         slot.fused);
+                         unproject(slot.fused, view, *shown.calibration, slot.points);
+                         if (merger)
+                         {
+                           merger->sumUp(slot.points, parts[i]);
+                         }
+                       }
+                     });
+    if (merger)
+    {
+      merger->add(parts, count, pool);
+      continue;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (!slots[i].points.empty())
+      {
+        sink(slots[i].points.data(), slots[i].points.size());
+      }
+    }
+  }
+  if (merger)
+  {
+    merger->emit(
+        static_cast<std::uint32_t>(std::min<std::size_t>(static_cast<std::size_t>(options.min_views), views)),
+        sink);
+  }
+}
+
+std::vector<DensePoint> denseCloud(const LightField& light_field, const std::vector<ViewDisparity>& maps,
+                                   const DenseCloudOptions& options, ThreadPool& pool)
+{
+  std::vector<DensePoint> points;
+  denseCloud(light_field, maps, options, pool,
+             [&points](const DensePoint* block, std::size_t count)
+             { points.insert(points.end(), block, block + count); });
+  return points;
+}
+
+}  // namespace light_field_depth
