@@ -3,36 +3,35 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
-
+#include "io/scene_folders.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/dataset.h"
-#include "support/synthetic_scene.h"
-#include "support/temporary_folder.h"
 
 namespace light_field_depth
 {
 namespace
 {
+using testing::both;
+using testing::extraImage;
+using testing::FIVE;
+using testing::grid;
+using testing::lenslets;
+using testing::NameOf;
+using testing::NINE;
+using testing::padded;
+using testing::PAIR;
+using testing::RenderedScene;
+using testing::ROW;
+using testing::Scene;
+using testing::SIDE;
 using testing::TemporaryFolder;
-
-constexpr int SIDE = 5;
-constexpr int LONG_ROW = 9;
-
-/// A view of the scene by its row and column from 0, in the package's convention.
-using Scene = std::function<cv::Mat(int row, int column)>;
-
-/// Writes a scene of `grid` views into a folder.
-using Write = std::function<void(const TemporaryFolder& folder, const Scene& scene)>;
+using testing::text;
+using testing::viewAt;
+using testing::Write;
+using testing::write;
 
 struct Animal
 {
@@ -42,88 +41,6 @@ struct Animal
   Write write;
   double max_difference = 0.0;  ///< of a level, in the mean: what JPEG may change
 };
-
-/// A scene with depth, of 5 x 9 views, rendered once.
-class RenderedScene
-{
-public:
-  static cv::Mat view(int row, int column)
-  {
-    static const RenderedScene scene;
-    const auto found = std::find_if(scene.views_.begin(), scene.views_.end(),
-                                    [&](const View& view) {
-                                      return view.grid == GridPosition{row, column};
-                                    });
-    return found->image;
-  }
-
-private:
-  RenderedScene()
-  {
-    testing::SceneSettings settings;
-    settings.size = {80, 64};
-    settings.positions = testing::gridPositions(SIDE, LONG_ROW);
-    settings.samples = 2;
-    views_ = testing::renderScene(testing::standardScene(settings.size), settings).light_field.views;
-  }
-
-  std::vector<View> views_;
-};
-
-void write(const TemporaryFolder& folder, const std::string& name, const cv::Mat& image)
-{
-  std::filesystem::create_directories((folder / name).parent_path());
-  ASSERT_TRUE(cv::imwrite((folder / name).string(), image)) << name;
-}
-
-std::string padded(int number, std::size_t digits)
-{
-  std::string text = std::to_string(std::abs(number));
-  text = (text.size() < digits ? std::string(digits - text.size(), '0') : "") + text;
-  return (number < 0 ? "-" : "") + text;
-}
-
-using NameOf = std::function<std::string(int row, int column)>;
-
-/// All views of a grid, each in a file of its own.
-Write grid(const cv::Size& size, const NameOf& name_of)
-{
-  return [=](const TemporaryFolder& folder, const Scene& scene)
-  {
-    for (int row = 0; row < size.height; ++row)
-    {
-      for (int column = 0; column < size.width; ++column)
-      {
-        write(folder, name_of(row, column), scene(row, column));
-      }
-    }
-  };
-}
-
-Write both(const Write& first, const Write& second)
-{
-  return [=](const TemporaryFolder& folder, const Scene& scene)
-  {
-    first(folder, scene);
-    second(folder, scene);
-  };
-}
-
-Write text(const std::string& name, const std::string& content)
-{
-  return [=](const TemporaryFolder& folder, const Scene&) { folder.write(name, content); };
-}
-
-Write extraImage(const std::string& name)
-{
-  return [=](const TemporaryFolder& folder, const Scene&)
-  { write(folder, name, cv::Mat(16, 20, CV_8UC1, 7.0)); };
-}
-
-const cv::Size FIVE(SIDE, SIDE);
-const cv::Size ROW(SIDE, 1);
-const cv::Size NINE(LONG_ROW, 1);
-const cv::Size PAIR(2, 1);
 
 std::string position(double value)
 {
@@ -271,37 +188,6 @@ cv::Mat tiling(const Scene& scene)
   return image;
 }
 
-/// The views of the scene as a plenoptic camera has them: pixel after pixel.
-cv::Mat lenslets(const Scene& scene)
-{
-  const cv::Size size = scene(0, 0).size();
-  cv::Mat image(size.height * SIDE, size.width * SIDE, CV_8UC3);
-  for (int y = 0; y < image.rows; ++y)
-  {
-    for (int x = 0; x < image.cols; ++x)
-    {
-      image.at<cv::Vec3b>(y, x) = scene(y % SIDE, x % SIDE).at<cv::Vec3b>(y / SIDE, x / SIDE);
-    }
-  }
-  return image;
-}
-
-/// Lenslets whose rims are dark, as behind a real lens; most of all those of the corners.
-cv::Mat darkRimmedLenslets(const Scene& scene)
-{
-  cv::Mat image = lenslets(scene);
-  constexpr double middle = 0.5 * (SIDE - 1);
-  for (int y = 0; y < image.rows; ++y)
-  {
-    for (int x = 0; x < image.cols; ++x)
-    {
-      const double radius = std::hypot(x % SIDE - middle, y % SIDE - middle) / middle;
-      image.at<cv::Vec3b>(y, x) *= radius > 1.2 ? 0.05 : radius > 0.9 ? 0.6 : 1.0;
-    }
-  }
-  return image;
-}
-
 /// All views of a row from the bottom left on.
 cv::Mat quilt(const Scene& scene)
 {
@@ -340,19 +226,6 @@ std::vector<Animal> allAnimals()
     animals.insert(animals.end(), some.begin(), some.end());
   }
   return animals;
-}
-
-/// The view that stands so many steps from the reference.
-const View* viewAt(const LightField& light_field, double x, double y)
-{
-  for (const View& view : light_field.views)
-  {
-    if (std::hypot(view.steps.x - x, view.steps.y - y) < 0.01)
-    {
-      return &view;
-    }
-  }
-  return nullptr;
 }
 
 TEST(FormatZoo, EveryFolderOpensWithoutAnOption)
@@ -400,168 +273,6 @@ TEST(FormatZoo, SaysWhatWasLeftOutAndWhichFrameIsRead)
   const Dataset dataset = readDataset(folder.path());
   ASSERT_EQ(dataset.notes.size(), 1U);
   EXPECT_NE(dataset.notes.front().find("1 more are left out"), std::string::npos) << dataset.notes.front();
-}
-
-TEST(FormatZoo, TakesTheFrameThatIsAskedFor)
-{
-  const TemporaryFolder folder;
-  for (int frame = 0; frame < 3; ++frame)
-  {
-    for (int camera = 0; camera < 2; ++camera)
-    {
-      write(folder, "cam_0" + std::to_string(camera) + "/image_" + padded(frame + 10, 3) + ".png",
-            cv::Mat(20, 24, CV_8UC1, 10.0 * frame + camera));
-    }
-  }
-  DatasetOptions options;
-  const Dataset first = readDataset(folder.path());
-  EXPECT_EQ(first.frames, (std::vector<std::string>{"image_010", "image_011", "image_012"}));
-  EXPECT_EQ(cv::mean(first.light_field.views[1].image)[0], 1.0);
-  ASSERT_EQ(first.notes.size(), 1U);
-  for (const char* const wanted : {"12", "image_012"})
-  {
-    options.frame = wanted;
-    EXPECT_EQ(cv::mean(readDataset(folder.path(), options).light_field.views[1].image)[0], 21.0);
-  }
-  options.frame = "7";
-  EXPECT_NE(testing::messageOf<InputError>([&] { readDataset(folder.path(), options); }).find("image_010"),
-            std::string::npos);
-}
-
-TEST(FormatZoo, TakesMiddleburysCalibration)
-{
-  const TemporaryFolder folder;
-  for (const Animal& animal : pairs())
-  {
-    if (animal.name == "Middlebury")
-    {
-      animal.write(folder, RenderedScene::view);
-    }
-  }
-  const Dataset dataset = readDataset(folder.path());
-  EXPECT_EQ(dataset.place_claim, PlaceClaim::Stated);
-  ASSERT_TRUE(dataset.light_field.calibration);
-  const Calibration& calibration = *dataset.light_field.calibration;
-  EXPECT_DOUBLE_EQ(calibration.focal_length_px, 100.0);
-  EXPECT_DOUBLE_EQ(calibration.baseline_m, 0.2);
-  EXPECT_DOUBLE_EQ(calibration.disparity_offset_px, 2.5);
-  EXPECT_EQ(calibration.principal_point_px, cv::Point2d(41.0, 31.5));
-  ASSERT_TRUE(dataset.disparity_range);
-  EXPECT_EQ(dataset.disparity_range->max, 12.0F);
-}
-
-TEST(FormatZoo, TakesTheCalibrationOfBlendersNames)
-{
-  const TemporaryFolder folder;
-  namedByPosition()[1].write(folder, RenderedScene::view);
-  const Dataset dataset = readDataset(folder.path());
-  ASSERT_TRUE(dataset.light_field.calibration);
-  EXPECT_NEAR(dataset.light_field.calibration->focal_length_px, 80.0 * 30.0 / 36.0, 1e-9);
-  EXPECT_NEAR(dataset.light_field.calibration->baseline_m, 0.03075, 1e-9);
-  EXPECT_EQ(dataset.light_field.calibration->disparity_offset_px, 0.0);
-}
-
-TEST(FormatZoo, TakesTheGridThatIsGiven)
-{
-  const TemporaryFolder folder;
-  grid({4, 3}, [](int r, int c) { return "v" + padded(r * 4 + c, 2) + ".png"; })(folder, RenderedScene::view);
-  DatasetOptions options;
-  options.grid = cv::Size(4, 3);
-  EXPECT_EQ(readDataset(folder.path(), options).light_field.reference().grid, (GridPosition{1, 1}));
-  options.grid = cv::Size(3, 3);
-  EXPECT_NE(testing::messageOf<InputError>([&] { readDataset(folder.path(), options); }).find("--grid"),
-            std::string::npos);
-}
-
-TEST(FormatZoo, LeavesOutTheDarkCornersOfLenslets)
-{
-  const TemporaryFolder folder;
-  write(folder, "flower_eslf.png", darkRimmedLenslets(RenderedScene::view));
-  const Dataset dataset = readDataset(folder.path());
-  EXPECT_EQ(dataset.format, "lenslets");
-  EXPECT_EQ(dataset.views_found, 21U);
-  EXPECT_EQ(viewAt(dataset.light_field, 2, 2), nullptr);
-  const View* const view = viewAt(dataset.light_field, 1, -1);
-  ASSERT_TRUE(view != nullptr);
-  EXPECT_EQ(cv::norm(view->image, RenderedScene::view(1, 3), cv::NORM_INF), 0.0);
-}
-
-TEST(FormatZoo, AGreyReferenceMakesAllViewsGrey)
-{
-  const TemporaryFolder folder;
-  write(folder, "left.png", cv::Mat(20, 24, CV_8UC1, 100.0));
-  write(folder, "right.png", cv::Mat(20, 24, CV_8UC3, cv::Scalar::all(100.0)));
-  const Dataset dataset = readDataset(folder.path());
-  for (const View& view : dataset.light_field.views)
-  {
-    EXPECT_EQ(view.image.type(), CV_8UC1);
-    EXPECT_EQ(cv::mean(view.image)[0], 100.0);
-  }
-  EXPECT_EQ(dataset.notes.size(), 1U);
-}
-
-TEST(FormatZoo, TakesKittisCalibration)
-{
-  const TemporaryFolder folder;
-  for (const char* const camera : {"image_0", "image_1"})
-  {
-    write(folder, camera + std::string("/000000.png"), cv::Mat(20, 24, CV_8UC1, 100.0));
-  }
-  folder.write("calib.txt", "P0: 700 0 11 0 0 700 9 0 0 0 1 0\nP1: 700 0 11 -378 0 700 9 0 0 0 1 0\n");
-  const Dataset dataset = readDataset(folder.path());
-  ASSERT_TRUE(dataset.light_field.calibration);
-  EXPECT_DOUBLE_EQ(dataset.light_field.calibration->focal_length_px, 700.0);
-  EXPECT_DOUBLE_EQ(dataset.light_field.calibration->baseline_m, 0.54);
-  EXPECT_EQ(dataset.light_field.calibration->principal_point_px, cv::Point2d(11.0, 9.0));
-}
-
-TEST(FormatZoo, SaysWhatToDoWithFilesThatAreNoImages)
-{
-  for (const auto& [file, word] :
-       {std::make_pair("buddha.h5", "HDF5"), std::make_pair("IMG_0001.LFP", "plenoptic"),
-        std::make_pair("LF.mat", "MATLAB"), std::make_pair("scene.mp4", "video")})
-  {
-    const TemporaryFolder folder;
-    folder.write(file, "content");
-    const std::string message = testing::messageOf<InputError>([&] { readDataset(folder.path()); });
-    EXPECT_NE(message.find(file), std::string::npos) << message;
-    EXPECT_NE(message.find(word), std::string::npos) << message;
-  }
-}
-
-TEST(FormatZoo, ListsWhatWasTried)
-{
-  const TemporaryFolder folder;
-  write(folder, "holiday.png", cv::Mat(40, 40, CV_8UC1, 7.0));
-  write(folder, "dog.png", cv::Mat(40, 40, CV_8UC1, 7.0));
-  const std::string message = testing::messageOf<InputError>([&] { readDataset(folder.path()); });
-  for (const char* const part : {"dog.png", "HCI", "Middlebury", "no name has a number", "light_field.yaml"})
-  {
-    EXPECT_NE(message.find(part), std::string::npos) << message;
-  }
-}
-
-TEST(FormatZoo, RefusesPipesLoopsAndEmptyLists)
-{
-  const TemporaryFolder folder;
-  grid(PAIR, [](int, int c) { return "00_0" + std::to_string(c) + ".png"; })(folder, RenderedScene::view);
-  const auto complaint = [&] { return testing::messageOf<InputError>([&] { readDataset(folder.path()); }); };
-  folder.write("light_field.yaml", "views: []\n");
-  EXPECT_NE(complaint().find("views"), std::string::npos);
-  folder.write("light_field.yaml",
-               "pattern: '" + std::string(300, 'x') + "{row}_{column}.png'\ngrid: {rows: 1, columns: 2}\n");
-  EXPECT_NE(complaint().find("is there"), std::string::npos);
-  std::filesystem::remove(folder / "light_field.yaml");
-  std::filesystem::create_symlink("light_field.yaml", folder / "light_field.yaml");
-  EXPECT_NE(complaint().find("light_field.yaml"), std::string::npos);
-  std::filesystem::remove(folder / "light_field.yaml");
-  ASSERT_EQ(std::system(("mkfifo '" + (folder / "light_field.yaml").string() + "'").c_str()), 0);
-  EXPECT_NE(complaint().find("regular file"), std::string::npos);
-  folder.write("b/light_field.yaml",
-               "views: [{row: 0, column: 0, file: zero.png}, {row: 0, column: 1, file: zero.png}]\n");
-  std::filesystem::create_symlink("/dev/zero", folder / "b/zero.png");
-  EXPECT_NE(testing::messageOf<InputError>([&] { readDataset(folder / "b"); }).find("zero.png"),
-            std::string::npos);
 }
 
 }  // namespace
