@@ -12,6 +12,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
 
 /// Mean absolute difference over the channels between a pixel of the reference and a bilinear sample of a

@@ -16,6 +16,7 @@ namespace light_field_depth
 {
 namespace
 {
+// The definition of the measure; see roughness().
 constexpr int BORDER_PX = 12;
 constexpr double FINE_PX = 1.5;
 constexpr double COARSE_PX = 8.0;

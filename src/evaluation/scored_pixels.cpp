@@ -12,7 +12,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr int MAX_BORDER_PX = 65536;
+constexpr int MAX_BORDER_PX = 65536;  // wider than any image, so that sums stay whole numbers
 /// Of a pixel without a value: the range of the truth, but a flat truth makes it no better than a bad one.
 constexpr float LEAST_ERROR_OF_UNKNOWN_PX = 1.0F;
 

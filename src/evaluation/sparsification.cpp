@@ -18,7 +18,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr float BAD_ERROR_PX = 0.07F;
+constexpr float BAD_ERROR_PX = 0.07F;  // BadPix 0.07 of the HCI benchmark
 constexpr int TENTH = SPARSIFICATION_STEPS / 10;
 
 /// Indices of the pixels, the surest first.

@@ -46,7 +46,7 @@ void add(Verdict& verdict, const char* name, bool warning, double value, std::st
 /// Every so-manieth pixel, in brightness or in the first channel: enough to know an image by.
 std::vector<float> sparsePixels(const cv::Mat& image)
 {
-  constexpr int ROWS = 48;
+  constexpr int ROWS = 48;  // some thousand pixels
   std::vector<float> values;
   const int pitch = std::max(1, image.rows / ROWS);
   const int channels = image.channels();
@@ -152,7 +152,7 @@ void judgeAgreement(const ViewSamples& samples, const VerdictOptions& options, V
 void judgeViews(const LightField& light_field, const ViewSamples& samples, const VerdictOptions& options,
                 Verdict& verdict)
 {
-  constexpr int MIN_SEEN = 50;
+  constexpr int MIN_SEEN = 50;  // pixels; a share of fewer is good to no more than 7 %
   std::vector<double> shares;
   for (const ViewAgreement& view : samples.views)
   {
@@ -203,7 +203,7 @@ void judgeViews(const LightField& light_field, const ViewSamples& samples, const
 void judgeRange(const ViewSamples& samples, const DisparityRange& range, const VerdictOptions& options,
                 Verdict& verdict)
 {
-  constexpr float SHARE_OF_RANGE = 0.01F;
+  constexpr float SHARE_OF_RANGE = 0.01F;  // that counts as its end: a label or so
   if (samples.disparities.empty() || !(range.max > range.min))
   {
     return;

@@ -11,11 +11,12 @@ namespace light_field_depth
 {
 namespace
 {
+/// Set by hand: shares of so many pixels are good to a hundredth, and the check takes some milliseconds.
 constexpr int MAX_PIXELS = 3000;
 constexpr std::size_t MAX_VIEWS = 24;
 /// Pixels are judged by the views that show the same surfaces.
 constexpr std::size_t NEAR_VIEWS = 8;
-constexpr int BORDER_PX = 4;
+constexpr int BORDER_PX = 4;  // of a patch and its slopes
 /// A patch of 3 x 3 pixels, two pixels apart.
 constexpr int PATCH_SIDE = 3;
 constexpr int PATCH_PITCH_PX = 2;
@@ -35,6 +36,7 @@ using Patch = std::array<float, PATCH_SIZE>;
 /// Brightness of a pixel of a grey or BGR image.
 float brightness(const std::uint8_t* pixel, int channels)
 {
+  // ITU-R BT.601.
   constexpr float BLUE = 0.114F;
   constexpr float GREEN = 0.587F;
   constexpr float RED = 0.299F;
@@ -233,6 +235,7 @@ std::vector<std::size_t> chosenViews(const LightField& light_field)
   return chosen;
 }
 
+/// No difference of two patches.
 constexpr float OUTSIDE = -1.0F;
 
 /// @param mismatches one for each pixel: difference in levels, or OUTSIDE

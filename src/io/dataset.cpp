@@ -21,6 +21,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
+/// Far more than any camera has, and no overflow of their product.
 constexpr int MAX_GRID_SIDE = 999;
 
 constexpr EnumNames<Order, 2> ORDER_NAMES = {{

@@ -74,7 +74,7 @@ std::optional<LightField> crossOf(const PlacedViews& placed, const std::vector<V
       return std::nullopt;
     }
   }
-  constexpr int MIN_SIDE_PX = 16;
+  constexpr int MIN_SIDE_PX = 16;  // what makeLightField() takes
   const cv::Size size = views.empty() ? cv::Size() : views.front().image.size();
   if (views.size() < 2 || std::min(size.width, size.height) < MIN_SIDE_PX)
   {
@@ -84,6 +84,7 @@ std::optional<LightField> crossOf(const PlacedViews& placed, const std::vector<V
 }
 
 /// Disparities that are all on one side of zero are those of parallel cameras, which have no negative ones.
+/// Not where they spread much more than the nearest one lies from zero: a focus behind the scene does that.
 bool isBehindTheCamera(const DepthSign& sign)
 {
   constexpr float MAX_SPREAD_SHARE = 2.0F;
@@ -193,7 +194,7 @@ struct IndexedGrid
 /// The grid that the images tell, or a guess. Says which it is.
 IndexedGrid foundGrid(FolderDescription& description, int count, ViewStore& store)
 {
-  constexpr int MIN_VIEWS_OF_GRID = 4;
+  constexpr int MIN_VIEWS_OF_GRID = 4;  // 2 x 2
   if (count < MIN_VIEWS_OF_GRID)
   {
     return {guessedGrid(count)};  // a row: nothing to choose from

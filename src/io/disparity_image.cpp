@@ -15,11 +15,13 @@ namespace light_field_depth
 {
 namespace
 {
+// Set by hand, for the eye: single outliers do not take the colours of all others.
 constexpr double LOW_PERCENTILE = 0.005;
 constexpr double HIGH_PERCENTILE = 0.995;
 constexpr float MIN_SPAN_PX = 0.01F;
 const cv::Scalar UNKNOWN_COLOR(128, 128, 128);
 
+// The layout of the scale and of the panels, set by eye.
 constexpr int SCALE_WIDTH_PX = 92;
 constexpr int BAR_LEFT_PX = 8;
 constexpr int BAR_WIDTH_PX = 14;

@@ -13,6 +13,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
+/// Of the HCI benchmark (Honauer et al. 2016).
 constexpr int BENCHMARK_GRID_SIDE = 9;
 constexpr const char* FORM = "input_cam#";
 constexpr const char* PARAMETERS = "parameters.cfg";

@@ -17,7 +17,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr double M_PER_MM = 1e-3;
+constexpr double M_PER_MM = 1e-3;  // its baselines are in millimetres
 constexpr const char* CALIBRATION = "calib.txt";
 constexpr std::array<const char*, 2> TRUTHS = {"disp0GT.pfm", "disp0.pfm"};
 /// ETH3D writes the image's width as the number of disparities: that says nothing.

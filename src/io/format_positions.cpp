@@ -11,7 +11,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr double M_PER_MM = 1e-3;
+constexpr double M_PER_MM = 1e-3;  // the names have millimetres
 
 struct PositionName
 {

@@ -10,10 +10,6 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr long long TEN = 10;
-constexpr long long HUNDRED = 100;
-constexpr std::size_t FOUR = 4;
-
 int toInt(long long number)
 {
   return static_cast<int>(std::clamp<long long>(number, -10LL * MAX_NUMBER, 10LL * MAX_NUMBER));
@@ -47,11 +43,11 @@ std::optional<DigitPlace> digitPlaceIn(const NameGroup& group)
   const bool same = std::all_of(group.names.begin(), group.names.end(),
                                 [&](const NumberedName& name)
                                 { return name.digits[place] == digits && name.numbers[place] >= 0; });
-  if (!same || (digits != 2 && digits != FOUR))
+  if (!same || (digits != 2 && digits != 4))
   {
     return std::nullopt;
   }
-  return DigitPlace{place, digits == FOUR ? HUNDRED : TEN};
+  return DigitPlace{place, digits == 4 ? 100 : 10};
 }
 
 }  // namespace
@@ -110,7 +106,7 @@ Recognition recognizeFourDigits(const FolderListing& listing, const DatasetOptio
   { return *counted.rbegin() - *counted.begin() + 1 == static_cast<long long>(counted.size()); };
   const bool is_full = rows.size() > 1 && rows.size() * columns.size() == numbers.size() && is_dense(rows) &&
                        is_dense(columns);
-  if (!is_full && (names->group.form != "#" || digits->columns != HUNDRED))
+  if (!is_full && (names->group.form != "#" || digits->columns != 100))
   {
     return Recognition::no("the numbers do not fill a grid of rows and columns");
   }

@@ -15,8 +15,8 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr double MM_PER_M = 1000.0;
-constexpr int MAX_GRID_SIDE = 255;
+constexpr double MM_PER_M = 1000.0;  // the file has millimetres
+constexpr int MAX_GRID_SIDE = 255;   // far more than any camera has
 constexpr std::string_view BYTE_ORDER_MARK = "\xEF\xBB\xBF";
 
 /// Typed access to the fields of a parameters.cfg.

@@ -10,6 +10,8 @@ namespace light_field_depth
 {
 namespace
 {
+/// Decoded Lytro images have 14 or 15 pixels under a lenslet; fewer than 5 views in a row, or lenslets in a
+/// row than a view needs pixels, make no light field.
 constexpr int MIN_LENSLET_PX = 5;
 constexpr int MAX_LENSLET_PX = 20;
 constexpr int MIN_LENSLETS = 16;
@@ -19,8 +21,9 @@ constexpr double MIN_LENSLET_EDGE = 1.5;
 /// or more where nothing repeats; the dark rim of a lens' lenslets makes it 0.2 to 0.6, and hides the edges
 /// between them.
 constexpr double MAX_LENSLET_DIFFERENCE = 0.75;
-constexpr int LENSLETS_APART = 3;
+constexpr int LENSLETS_APART = 3;  // the mean of three tells period from texture
 
+/// Columns or rows of views in one image, and the least that makeLightField() takes of each.
 constexpr int MAX_TILES = 32;
 constexpr int MIN_TILE_PX = 16;
 /// Difference of neighbouring tiles over that of parts of the image that are not whole tiles apart.
@@ -28,7 +31,7 @@ constexpr double MAX_TILE_DIFFERENCE = 0.75;
 /// Change of brightness from one tile to the next over that inside of one.
 constexpr double MIN_TILE_EDGE = 1.5;
 constexpr double OFF_PERIOD = 0.37;  ///< of a tile: no multiple of a likely period
-constexpr int SAMPLE_LINES = 128;
+constexpr int SAMPLE_LINES = 128;    // about, evenly spread
 
 cv::Mat greyLevels(const cv::Mat& image)
 {

@@ -15,6 +15,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
+/// Far more than any camera or numbering has; larger ones are slips of the pen.
 constexpr int MAX_GRID_SIDE = 255;
 constexpr int MAX_FIRST = 9999;
 constexpr const char* DESCRIPTION_FILE = "light_field.yaml";

@@ -10,8 +10,8 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr double BELOW_WHITE = 0.999;
-constexpr float MAX_LEVEL = 65535.0F;
+constexpr double BELOW_WHITE = 0.999;  // of the pixels, as in toEightBit(): the rest are glints
+constexpr float MAX_LEVEL = 65535.0F;  // of 16 bits
 
 float sRgbCurve(float linear)
 {

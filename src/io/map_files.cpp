@@ -17,9 +17,9 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr double MAX_LEVEL = 65535.0;
-constexpr double LEVELS_PER_PX = 256.0;
-constexpr double LEVELS_PER_M = 1000.0;
+constexpr double MAX_LEVEL = 65535.0;    // of 16 bits
+constexpr double LEVELS_PER_PX = 256.0;  // as KITTI has disparities
+constexpr double LEVELS_PER_M = 1000.0;  // as depth cameras have millimetres (REP 118)
 /// The header of a .npy file ends at a multiple of this.
 constexpr std::size_t NPY_ALIGNMENT = 64;
 constexpr std::size_t NPY_PREAMBLE = 10;

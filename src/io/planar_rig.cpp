@@ -29,7 +29,7 @@ constexpr double MAX_ANGLE_DEG = 30.0;
 constexpr double SAME_LINE = 0.4;
 /// Warps that move no pixel farther than this are left out.
 constexpr double MIN_WARP_PX = 0.01;
-constexpr double DEG_PER_RAD = 57.29577951308232;
+constexpr double DEG_PER_RAD = 57.29577951308232;  // 180 / pi
 
 struct Plane
 {

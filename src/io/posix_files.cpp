@@ -19,7 +19,7 @@ Descriptor::~Descriptor()
 
 std::filesystem::path hiddenNameBeside(const std::filesystem::path& target)
 {
-  constexpr std::size_t LETTERS = 16;
+  constexpr std::size_t LETTERS = 16;                                      // that nobody guesses
   static const std::string ALPHABET = "abcdefghijklmnopqrstuvwxyz012345";  // five bits each
   std::random_device random;
   std::string name = ".light_field_depth.partial-";

@@ -52,7 +52,7 @@ public:
                                                       const std::string& wanted) const;
   std::optional<std::pair<int, int>> integerPair(const std::string& field, const std::string& wanted) const;
 
-  /// "focal_length_px in 'light_field.yaml' is '...'; it must be WANTED."
+  /// "In 'light_field.yaml', focal_length_px is '...'; it must be WANTED."
   [[noreturn]] void fail(const std::string& field, const std::string& wanted) const;
 
 private:

@@ -19,6 +19,7 @@ namespace
 namespace encodings = sensor_msgs::image_encodings;
 
 constexpr int NO_CONVERSION = -1;
+/// A message that says more is damaged.
 constexpr int MAX_SIDE_PX = 1 << 16;
 
 /// How an encoding is read: the type in memory and the conversion to grey or BGR.

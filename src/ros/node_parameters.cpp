@@ -16,6 +16,7 @@ namespace light_field_depth
 {
 namespace
 {
+// Larger values of parameters are slips of the pen, and would take all memory or wait for ever.
 constexpr double MAX_TOLERANCE_S = 10.0;
 constexpr int MAX_QUEUE = 10000;
 constexpr int MAX_THREADS = 1024;

@@ -17,7 +17,7 @@ using XmlRpc::XmlRpcValue;
 
 constexpr const char* DEFAULT_IMAGE_TOPIC = "view_{row}_{column}/image_rect_color";
 constexpr const char* DEFAULT_CAMERA_INFO_TOPIC = "view_{row}_{column}/camera_info";
-constexpr int DEFAULT_SIDE = 9;
+constexpr int DEFAULT_SIDE = 9;  // the views of the HCI benchmark and of most plenoptic captures
 /// More is a slip of the pen rather than an array.
 constexpr int MAX_SIDE = 1000;
 

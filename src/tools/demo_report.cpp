@@ -27,7 +27,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr double WAIT_FOR_CALLBACKS_S = 0.1;
+constexpr double WAIT_FOR_CALLBACKS_S = 0.1;  // how late a signal is noticed at the most
 
 struct ReportOptions
 {

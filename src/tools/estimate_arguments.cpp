@@ -8,7 +8,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr int MAX_THREADS = 1024;
+constexpr int MAX_THREADS = 1024;  // as the node has it
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr std::uint32_t QUEUE_SIZE = 2;
+constexpr std::uint32_t QUEUE_SIZE = 2;  // the next set while one is being sent
 
 struct ViewPublishers
 {

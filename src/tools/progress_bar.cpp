@@ -9,9 +9,10 @@ namespace light_field_depth
 {
 namespace
 {
+/// Shorter runs show no bar. Set by hand, like its length.
 constexpr std::chrono::seconds QUIET_TIME{1};
 constexpr std::size_t BAR_LENGTH = 40;
-constexpr const char* ERASE_LINE = "\r\033[K";
+constexpr const char* ERASE_LINE = "\r\033[K";  // ECMA-48: erase to the end of the line
 }  // namespace
 
 ProgressBar::ProgressBar()

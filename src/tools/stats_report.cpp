@@ -19,8 +19,8 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr double WAIT_FOR_CALLBACKS_S = 0.1;
-constexpr std::uint32_t QUEUE_SIZE = 1000;
+constexpr double WAIT_FOR_CALLBACKS_S = 0.1;  // how late a signal is noticed at the most
+constexpr std::uint32_t QUEUE_SIZE = 1000;    // no message of a short run is lost
 
 struct ReportOptions
 {

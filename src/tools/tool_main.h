@@ -16,7 +16,7 @@
 
 namespace light_field_depth
 {
-constexpr int EXIT_INTERRUPTED = 130;
+constexpr int EXIT_INTERRUPTED = 130;  ///< 128 + SIGINT, as shells have it
 /// Of a tool that was asked to be strict: the work is done, but the verdict on it is a warning.
 constexpr int EXIT_DOUBTFUL = 3;
 

@@ -19,7 +19,7 @@ struct Window
   double white;
 };
 
-constexpr std::size_t LEVELS = 1U << 16U;
+constexpr std::size_t LEVELS = 1U << 16U;  // of 16 bits
 /// Every so many rows are counted: a percentile needs no more.
 constexpr int ROW_STEP = 4;
 /// Of all values, on either side, that do not decide the window: hot and dead pixels, glints.

@@ -7,11 +7,11 @@ namespace light_field_depth::multiview
 {
 // Shares of the channels in the brightness (ITU-R BT.601), of 4096. A sum of four pixels, shifted to 16 bits,
 // times a share keeps in its upper half four bits below the brightness.
-constexpr int SUM_SHIFT = 6;
-constexpr int FRACTION_SHIFT = 4;
-constexpr std::uint16_t BLUE_SHARE = 467;
-constexpr std::uint16_t GREEN_SHARE = 2404;
-constexpr std::uint16_t RED_SHARE = 1225;
+constexpr int SUM_SHIFT = 6;       // 4 * 255 has ten bits
+constexpr int FRACTION_SHIFT = 4;  // 10 + 6 + 12 bits less the 16 that are dropped, less the 8 that remain
+constexpr std::uint16_t BLUE_SHARE = 467;    // 0.114
+constexpr std::uint16_t GREEN_SHARE = 2404;  // 0.587
+constexpr std::uint16_t RED_SHARE = 1225;    // 0.299
 
 /// One row of the reduced image from two rows of an image with `channels` (1 or 3, BGR) interleaved.
 /// @param width of the reduced row. The plain version computes the same values bit for bit.

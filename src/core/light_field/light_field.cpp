@@ -139,7 +139,7 @@ std::size_t middleView(const std::vector<View>& views)
 /// Whether a view stands elsewhere than the reference, at which the steps begin.
 bool standsApart(const View& view)
 {
-  constexpr double SAME_PLACE_STEPS = 1e-9;
+  constexpr double SAME_PLACE_STEPS = 1e-9;  // what rounding makes of equal positions
   return std::max(std::abs(view.steps.x), std::abs(view.steps.y)) >= SAME_PLACE_STEPS;
 }
 

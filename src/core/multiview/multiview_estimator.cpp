@@ -32,9 +32,11 @@ constexpr int LARGE_PIXELS = 1'000'000;
 /// With at most this many views in the row and column of the reference, all views are used.
 constexpr int FEW_VIEWS = 6;
 
-/// Smaller views are not halved.
+/// Smaller views are not halved: half of it is the least that makeLightField() takes.
 constexpr int MIN_HALVED_SIDE_PX = 32;
+/// As accurate as four, which take longer; two are worse (docs/experiments.md).
 constexpr int FAST_VIEWS_PER_ARM = 3;
+
 bool isLarge(const LightField& light_field)
 {
   return light_field.size().area() > LARGE_PIXELS;

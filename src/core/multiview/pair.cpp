@@ -6,7 +6,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-constexpr std::size_t PAIR = 2;
+constexpr std::size_t PAIR = 2;  // views
 /// Of the large change penalty for arrays. Measured on ETH3D and Middlebury pairs.
 constexpr int LARGE_CHANGE_FACTOR = 4;
 /// Of the truncation. The full charge makes the foreground spread over what it hides, where the costs of all

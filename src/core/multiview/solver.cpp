@@ -12,6 +12,7 @@ namespace
 /// How far a refined disparity may lie outside the labels, in pixels: slopes of surfaces at the end of the
 /// range go on.
 constexpr float REFINEMENT_REACH_PX = 1.0F;
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;
 /// A pixel counts as filled where less than half of its data is above the noise.
 constexpr float FILLED_BELOW_SHARE = 0.5F;
@@ -27,6 +28,7 @@ constexpr int FOLLOWED_REACH_PX = 12;
 constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
 /// Distance of the labels that SolverSettings::paths is meant for.
 constexpr float UNIT_LABEL_STEP_PX = 0.125F;
+/// Of a penalty: the sum over four paths, each FULL_COST and a penalty at the most, stays in 16 bits.
 constexpr int MAX_STEP = 12000;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;

@@ -13,7 +13,7 @@ namespace light_field_depth
 /// The disparity paths between two neighbouring views of a volume, pixel by pixel.
 struct PathLinks
 {
-  static constexpr std::int32_t NONE = -1;
+  static constexpr std::int32_t NONE = -1;  ///< no index of a pixel
   std::vector<std::int32_t>
       predecessor;  ///< for each pixel of the later view its pixel in the earlier, or NONE
   std::vector<std::int32_t>

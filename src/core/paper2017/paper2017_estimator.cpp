@@ -84,6 +84,8 @@ std::string mapName(const std::string& stage, const AngularVolume& volume, std::
 /// keeps the view's own estimate.
 cv::Mat withRefined(const cv::Mat& own, const cv::Mat& refined)
 {
+  // Set by hand: what the refinement moves on one surface, and less than what lies between two. It decides
+  // about the maps of the other views only.
   constexpr float AGREEMENT_PX = 0.25F;
   cv::Mat result = own.clone();
   for (int y = 0; y < own.rows; ++y)

@@ -110,6 +110,7 @@ private:
   std::vector<int> cost_;
 };
 
+/// Costs more than any match.
 constexpr int OUTSIDE = DescriptorImage::MAX_DISTANCE + 1;
 
 int LevelSearch::costAt(int column, int row, int displacement) const

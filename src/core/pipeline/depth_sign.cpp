@@ -20,13 +20,16 @@ namespace
 {
 /// Pixels to which the map's edges are right.
 constexpr int EDGE_WIDTH_PX = 2;
-/// Least width of what is hidden, and the largest that is looked at.
+/// Least width of what is hidden, and the largest that is looked at. Set by hand: less is lost among the
+/// mixed pixels of the edge, and so far from an edge another one is likely.
 constexpr float MIN_HIDDEN_PX = 1.5F;
 constexpr int MAX_HIDDEN_PX = 12;
 /// Of the jump: so flat must the map be on both sides, as far as one looks.
 constexpr float MAX_SLOPE_SHARE = 0.25F;
 /// Views in which near and far move apart by more show too much that the reference does not.
 constexpr double MAX_RELATIVE_MOVE_PX = 12.0;
+/// Of one edge, in terms of the noise: more of it is no better evidence, and less is none. Set by hand, like
+/// the limits of DepthSignOptions on what `bench --order` reads.
 constexpr float MAX_SCORE = 8.0F;
 constexpr float MIN_SCORE = 1.5F;
 /// In 8-bit levels, added to the noise: what interpolation and gloss leave.
@@ -46,7 +49,7 @@ struct Line
 /// more than so many unless there are no others.
 std::optional<Line> lineOf(const LightField& light_field, bool horizontal, double max_steps)
 {
-  constexpr double MAX_INEQUALITY = 1.2;
+  constexpr double MAX_INEQUALITY = 1.2;  // of the two distances, as in arrays that stand unevenly
   Line best{horizontal, nullptr, nullptr};
   double reach = 0.0;
   const auto along = [&](const View& view) { return horizontal ? view.steps.x : view.steps.y; };
@@ -141,7 +144,7 @@ public:
   }
 
 private:
-  static constexpr int MIN_EDGE_PIXELS = 3;
+  static constexpr int MIN_EDGE_PIXELS = 3;  // one or two may be an error of the map
 
   struct Part
   {
@@ -247,7 +250,7 @@ private:
 /// The views at most so many grid steps from the reference: those farther away add little but occlusions.
 LightField nearViews(const LightField& light_field)
 {
-  constexpr int MAX_GRID_STEPS = 4;
+  constexpr int MAX_GRID_STEPS = 4;  // the 9 x 9 views of the benchmark
   const GridPosition centre = light_field.reference().grid;
   std::vector<View> views;
   std::copy_if(light_field.views.begin(), light_field.views.end(), std::back_inserter(views),

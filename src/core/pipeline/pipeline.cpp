@@ -18,7 +18,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr float BELOW_EVERY_CONFIDENCE = -1.0F;
+constexpr float BELOW_EVERY_CONFIDENCE = -1.0F;  // they are 0 to 1
 
 constexpr EnumNames<Method, 2> METHOD_NAMES = {{
     {Method::Multiview, "multiview"},

@@ -116,7 +116,7 @@ private:
   /// Means over 3 x 3 cells; those at the borders are repeated.
   void averageWindows(float* costs)
   {
-    constexpr float ONE_OF_NINE = 1.0F / 9.0F;
+    constexpr float ONE_OF_NINE = 1.0F / 9.0F;  // 3 x 3 cells
     const int width = cells_.cols;
     for (int y = 0; y < cells_.rows; ++y)
     {

@@ -14,6 +14,8 @@ namespace
 /// The reduced views have at least this many pixels on their longer side (if the views have them), and less
 /// than twice as many: enough for the moves of a plenoptic camera, few enough to be quick.
 constexpr int CONTRAST_SIDE_PX = 96;
+/// A band of frequencies (difference of Gaussians): without the noise of single pixels, and without the slow
+/// changes that exposure and shading make. Set by hand.
 constexpr double NOISE_SIGMA_PX = 0.8;
 constexpr double SURROUND_SIGMA_PX = 4.0;
 /// Contrast of this many grey levels counts half: less is noise.
@@ -114,7 +116,7 @@ std::vector<ContrastView> contrastViews(const LightField& light_field,
 
 cv::Mat shiftedBack(const ContrastView& view)
 {
-  constexpr float NEGLIGIBLE_PX = 0.01F;
+  constexpr float NEGLIGIBLE_PX = 0.01F;  // a hundredth of what tells two displacements apart
   if (std::abs(view.offset.x) < NEGLIGIBLE_PX && std::abs(view.offset.y) < NEGLIGIBLE_PX)
   {
     return view.image;

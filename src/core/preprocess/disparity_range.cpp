@@ -21,7 +21,8 @@ namespace light_field_depth
 {
 namespace
 {
-/// The reduced images have at least this many pixels on their longer side (if the views have them).
+/// The reduced images have at least this many pixels on their longer side (if the views have them). Set by
+/// hand: a coarse sweep takes a millisecond or two, and labels of the fine one are half as large.
 constexpr int COARSE_SIDE_PX = 96;
 constexpr int FINE_SIDE_PX = 192;
 /// Spacing of the labels, in pixels of the reduced images, in the farthest view.

@@ -8,10 +8,11 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-/// Of the reference's mean brightness.
+/// Of the reference's mean brightness. Set by hand: disparity alone changes what a quarter of the view shows
+/// more than what the whole view shows.
 constexpr double MAX_DIFFERENCE = 0.015;
 constexpr double MAX_DIFFERENCE_OF_A_QUARTER = 0.03;
-constexpr std::size_t QUARTERS = 4;
+constexpr std::size_t QUARTERS = 4;  // of a view: shading makes them differ
 
 std::array<double, QUARTERS> quarterMeans(const cv::Mat& image)
 {

@@ -41,7 +41,7 @@ using LevelTable = std::array<float, 256>;
 
 LevelTable levelsOf(const ViewExposure& exposure, int channel)
 {
-  constexpr double WHITE = 255.0;
+  constexpr double WHITE = 255.0;  // of 8 bits
   LevelTable levels;
   for (std::size_t level = 0; level < levels.size(); ++level)
   {

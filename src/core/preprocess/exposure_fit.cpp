@@ -12,7 +12,7 @@ namespace
 {
 /// Fewer pairs tell nothing.
 constexpr std::size_t MIN_PAIRS = 64;
-constexpr double WHITE = 255.0;
+constexpr double WHITE = 255.0;  // of 8 bits
 
 using Column = std::vector<double>;
 
@@ -21,7 +21,7 @@ using Column = std::vector<double>;
 template <class Value>
 double sumOf(std::size_t count, const Value& value)
 {
-  constexpr std::size_t LANES = 4;
+  constexpr std::size_t LANES = 4;  // an addition takes about four cycles
   std::array<double, LANES> sums = {};
   std::size_t i = 0;
   for (; i + LANES <= count; i += LANES)
@@ -139,7 +139,7 @@ void fitShading(const PairTable& pairs, ViewExposure& exposure)
 {
   /// As much evidence for no shading as this many pairs would be, each with full brightness at a corner.
   constexpr double PRIOR_PAIRS = 0.5;
-  constexpr int TERMS = 5;
+  constexpr int TERMS = 5;  // three of the shading, gain and offset
   const std::size_t channels = pairs.reference.size();
   const double share = 1.0 / static_cast<double>(channels);
   const Column shading = shadingAt(exposure, pairs);
@@ -208,7 +208,7 @@ Column misfitsOf(const ViewExposure& exposure, const PairTable& pairs)
 }
 
 /// The misfit that this fraction of them does not exceed.
-double quantile(Column misfits, double fraction)
+double quantile(Column misfits, double fraction = 0.5)
 {
   const auto place =
       misfits.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(misfits.size() - 1));
@@ -264,10 +264,9 @@ bool isClear(const ViewExposure& exposure, const PairTable& pairs)
 {
   constexpr double MIN_CHANGE = 0.5;
   constexpr double MAX_SHARE_OF_MISFIT = 0.7;
-  constexpr double MEDIAN = 0.5;
   return rootMeanSquareChange(exposure, pairs) > MIN_CHANGE &&
-         quantile(misfitsOf(exposure, pairs), MEDIAN) <
-             MAX_SHARE_OF_MISFIT * quantile(misfitsOf(ViewExposure{}, pairs), MEDIAN);
+         quantile(misfitsOf(exposure, pairs)) <
+             MAX_SHARE_OF_MISFIT * quantile(misfitsOf(ViewExposure{}, pairs));
 }
 
 /// Offset, gain and bend of a channel by least squares, the bend drawn towards none.
@@ -306,7 +305,7 @@ void fitCurve(const PairTable& pairs, const Column& shading, std::size_t channel
 /// Brighter stays brighter.
 bool isRising(const ViewExposure& exposure, std::size_t channels)
 {
-  constexpr double LEAST_SLOPE = 0.05;
+  constexpr double LEAST_SLOPE = 0.05;  // of a tone curve that still tells levels apart
   for (int channel = 0; channel < static_cast<int>(channels); ++channel)
   {
     const double at_black = exposure.gain[channel];
@@ -322,6 +321,8 @@ bool isRising(const ViewExposure& exposure, std::size_t channels)
 /// A curve for the same pairs, beginning with a line through them.
 ViewExposure bent(const PairTable& pairs, const ViewExposure& line)
 {
+  // Set by hand: of two cameras many points are matched wrongly, and each round begins again with all of
+  // them.
   constexpr int ROUNDS = 5;
   constexpr double KEPT_FRACTION = 0.6;
   ViewExposure curve = line;
@@ -343,12 +344,11 @@ ViewExposure bent(const PairTable& pairs, const ViewExposure& line)
 /// The curve instead of the line, where it fits clearly better.
 ViewExposure bentWhereNeeded(const PairTable& pairs, const ViewExposure& line)
 {
-  constexpr double MAX_SHARE_OF_MISFIT = 0.9;
-  constexpr double MEDIAN = 0.5;
+  constexpr double MAX_SHARE_OF_MISFIT = 0.9;  // set by hand: a curve bends to noise as well
   ViewExposure curve = bent(pairs, line);
   curve.differs = isRising(curve, pairs.reference.size()) && isClear(curve, pairs);
-  const bool better = !line.differs || quantile(misfitsOf(curve, pairs), MEDIAN) <
-                                           MAX_SHARE_OF_MISFIT * quantile(misfitsOf(line, pairs), MEDIAN);
+  const bool better = !line.differs || quantile(misfitsOf(curve, pairs)) <
+                                           MAX_SHARE_OF_MISFIT * quantile(misfitsOf(line, pairs));
   return curve.differs && better ? curve : line;
 }
 

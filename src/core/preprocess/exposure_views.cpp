@@ -13,6 +13,8 @@ namespace
 constexpr std::uint8_t DARKEST_LEVEL = 5;
 constexpr std::uint8_t BRIGHTEST_LEVEL = 240;
 
+/// 40 levels for one standard deviation about the middle of the range: three of them fit into 8 bits.
+/// Contrast of less than four levels is mostly noise. Set by hand.
 constexpr Normalization LOCAL_CONTRAST = {40.0F, 4.0F, 128.0F};
 
 /// The row y and as many above and below it. Rows outside mirror those inside about the outermost.

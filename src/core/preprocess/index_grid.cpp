@@ -12,6 +12,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Set by hand: neighbouring views look alike at this size, and views rows apart do not.
 constexpr int THUMBNAIL_SIDE_PX = 32;
 /// Of the square root of the number of views: so many runs of a square grid are looked at.
 constexpr double RUNS = 4.0;

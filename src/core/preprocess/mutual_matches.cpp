@@ -12,6 +12,7 @@ namespace light_field_depth
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 8;
 /// Two labels are a pixel; displacements are rounded to whole ones here.
 constexpr int MAX_LABEL_DIFFERENCE = 2;

@@ -13,8 +13,8 @@ constexpr int BLOCK = NOISE_BLOCK_PX;
 constexpr int CELL = 4;
 constexpr int CELLS = 3;  // in a row over a block and what lies about it
 constexpr int MARGIN = (CELLS * CELL - BLOCK) / 2;
-constexpr int MIN_BLOCKS = 50;
-/// Between black and white, with room for noise on both sides.
+constexpr int MIN_BLOCKS = 50;  // fewer do not tell which are the calm ones
+/// Between black and white, with room for noise of six levels (two deviations) on both sides.
 constexpr int DARKEST_LEVEL = 12;
 constexpr int BRIGHTEST_LEVEL = 243;
 

@@ -14,10 +14,11 @@ namespace light_field_depth
 {
 namespace
 {
+/// Of the reduced views. Set by hand: a sweep of one arm takes some milliseconds.
 constexpr int MAX_SIDE_PX = 256;
 /// Displacements that are looked at, in parts of the side along which the views move.
 constexpr double MAX_DISPLACEMENT = 0.25;
-constexpr float LABEL_STEP_PX = 0.5F;
+constexpr float LABEL_STEP_PX = 0.5F;  // as in the sweeps of the range
 /// Below it, the two signs are not told apart.
 constexpr float MIN_DISPLACEMENT_PX = 1.0F;
 /// A match without contrast is worth nothing: change of brightness from one pixel to the next but one, in

@@ -11,7 +11,7 @@ namespace light_field_depth
 {
 namespace
 {
-constexpr int WINDOW_SIDE = 2 * SWEEP_WINDOW_RADIUS + 1;
+constexpr int WINDOW_SIDE = 2 * SWEEP_WINDOW_RADIUS + 1;  // px
 /// 1/32 pixel: a sixteenth of a label (LABEL_DISPLACEMENT).
 constexpr int FRACTION_BITS = 5;
 static_assert(SWEEP_FRACTIONS == 1 << FRACTION_BITS, "whole pixels and fractions are split by a shift");
@@ -86,7 +86,7 @@ public:
 private:
   static std::uint16_t factorOf(const SweepArm& arm)
   {
-    constexpr int WORD_RANGE = 1 << 16;
+    constexpr int WORD_RANGE = 1 << 16;  // what meanOfWindows() divides by
     const int area = static_cast<int>(arm.size()) * WINDOW_SIDE * WINDOW_SIDE;
     return static_cast<std::uint16_t>(SWEEP_COST_PER_GREY_LEVEL * WORD_RANGE / area);
   }

@@ -19,6 +19,7 @@ namespace
 /// In pixels of the reduced views: the first holds the moves of camera arrays, the second those of plenoptic
 /// cameras, which are fractions of a pixel.
 constexpr std::array<Displacements, 2> LABEL_SETS = {{{12.0F, 0.5F}, {2.5F, 0.125F}}};
+/// Neighbouring cells agree with each other: each of these blocks has one vote in the significance.
 constexpr int BLOCKS_PER_SIDE = 5;
 
 constexpr std::array<GridLayout, 4> LAYOUTS = {{{false, false}, {false, true}, {true, false}, {true, true}}};

@@ -15,6 +15,8 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int BLOCK = NOISE_BLOCK_PX;
+/// The nearest views that are compared, set by hand; the time grows with them. One alone cannot tell noise
+/// from texture.
 constexpr int VIEWS_COMPARED = 8;
 constexpr int MIN_VIEWS_COMPARED = 2;
 /// Blocks are compared at whole pixels. Where the shift is farther from one, texture makes a difference that
@@ -28,13 +30,13 @@ constexpr double CALMEST_PART = 0.15;
 constexpr double CALMER_PART = 0.5;
 /// A search over shifts takes this many blocks, evenly spread.
 constexpr int SEARCHED_BLOCKS = 256;
-constexpr int MAX_SHIFTS = 256;
+constexpr int MAX_SHIFTS = 256;  // set by hand: the time of a search grows with them
 /// Local values: blocks in a row that give the median, its least number, and the most by which it may exceed
 /// that of the whole image.
 constexpr int LOCAL_BLOCKS = 7;
 constexpr int MIN_LOCAL_BLOCKS = 6;
 constexpr float MAX_LOCAL_RATIO = 4.0F;
-constexpr int LOCAL_STEP_BLOCKS = 2;
+constexpr int LOCAL_STEP_BLOCKS = 2;  // from one block that is looked at to the next
 /// Slopes are summed in twelfths.
 constexpr float SLOPE_UNIT = 12.0F;
 

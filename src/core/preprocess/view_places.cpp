@@ -17,6 +17,7 @@ namespace
 {
 /// The same as for the layout.
 constexpr std::array<Displacements, 2> LABEL_SETS = {{{12.0F, 0.5F}, {2.5F, 0.125F}}};
+/// Set by hand: the time grows with them.
 constexpr int MAX_POINTS = 1500;
 constexpr int MIN_POINTS = 200;
 /// Samples in all; with many views fewer points have to do.
@@ -25,6 +26,7 @@ constexpr double MAX_SAMPLES = 1e7;
 constexpr double MIN_INSIDE = 0.25;
 /// Least cost over mean cost of the displacements, above which nothing matches.
 constexpr double MAX_MATCH = 0.6;
+/// As in the sweeps (axis_sweep.cpp).
 constexpr float TRUNCATION = 1.5F;
 /// Costs below this are those of a perfect match.
 constexpr double NEGLIGIBLE_COST = 0.05;
@@ -313,7 +315,7 @@ double shareOfDoubts(const ViewPlaces& places, const LightField& light_field)
 
 ViewPlaces checkViewPlaces(const LightField& light_field, ThreadPool& pool, const ViewPlacesOptions& options)
 {
-  constexpr std::size_t MIN_VIEWS = 4;
+  constexpr std::size_t MIN_VIEWS = 4;  // with fewer there is no majority
   if (light_field.views.size() < MIN_VIEWS)
   {
     return {};

@@ -12,6 +12,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Of the window about an edge: mixed pixels reach one pixel to both sides, and one more shows a pure colour.
 constexpr int RADIUS = 2;
 /// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;

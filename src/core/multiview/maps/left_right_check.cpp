@@ -12,8 +12,9 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
-constexpr std::uint8_t MARKED = 255;
+constexpr std::uint8_t MARKED = 255;  // as in OpenCV's masks
 
 /// Marks small regions of unmarked pixels.
 class RegionCleaner
@@ -162,7 +163,7 @@ public:
 
   float at(int x, int y)
   {
-    constexpr int STRIDE = 2;
+    constexpr int STRIDE = 2;  // a quarter of the samples are enough for a median
     samples_.clear();
     float total = 0.0F;
     const int channels = image_.channels();

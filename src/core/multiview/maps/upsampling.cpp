@@ -7,13 +7,14 @@
 #include <cstdlib>
 #include <vector>
 
+#include "core/light_field/view_set.h"
+
 namespace light_field_depth::multiview
 {
 namespace
 {
-constexpr int ROWS_PER_CHUNK = 32;  // of the full resolution; even
-constexpr int EDGE_RADIUS = 1;      // reduced pixels that vote at an edge
-constexpr int COLOUR_DIFFERENCES = 3 * 255 + 1;
+constexpr int ROWS_PER_CHUNK = 32;    // of the full resolution; even
+constexpr int EDGE_RADIUS = 1;        // reduced pixels that vote at an edge
 constexpr float EDGE_JUMP_PX = 0.2F;  // of the disparity among 3 x 3 values, to be an edge
 constexpr float COLOUR_SCALE =
     12.0F;  // difference of colour, mean of the channels, that lowers a weight by e

@@ -10,7 +10,7 @@ namespace light_field_depth::multiview
 /// A row of a map with the rows about it.
 struct ExtentRow
 {
-  static constexpr int MAX_RADIUS = 2;
+  static constexpr int MAX_RADIUS = 2;  // of the windows that the confidence looks at
 
   const float* rows[2 * MAX_RADIUS + 1] = {};  ///< 2 * radius + 1 of [width]
   int radius = 1;                              ///< 1 .. MAX_RADIUS

@@ -10,6 +10,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
 /// Enough for what is left on the coarsest grid; on the others one sweep follows each correction.
 constexpr int COARSEST_SWEEPS = 10;

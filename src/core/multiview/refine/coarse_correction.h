@@ -25,6 +25,7 @@ public:
   /// Adds the correction to grid.values; nothing if a side is not longer than SMALLEST_SIDE_PX.
   void correct(const LinkedGrid& grid, ThreadPool& pool);
 
+  /// Of a grid that has a coarser one below it: so few cells are solved by sweeps alone.
   static constexpr int SMALLEST_SIDE_PX = 8;
 
 private:

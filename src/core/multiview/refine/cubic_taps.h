@@ -12,12 +12,12 @@ constexpr float SAMPLE_UNIT = 1 << SAMPLE_SHIFT;
 
 /// The weights of the taps are numbers of 1 / TAP_ONE.
 constexpr float TAP_ONE = 32768.0F;
-constexpr int TAP_MOST = 32767;
+constexpr int TAP_MOST = 32767;  // of 16 bits: a tap of one is one unit less
 
 /// Product of two such numbers, or of one and a sample, to the nearest.
 inline int mulFixed(int a, int b)
 {
-  constexpr int shift = 15;
+  constexpr int shift = 15;  // of TAP_ONE
   return (a * b + (1 << (shift - 1))) >> shift;
 }
 

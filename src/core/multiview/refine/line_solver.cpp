@@ -10,6 +10,8 @@ namespace
 {
 /// Rows that are worked on while they are in the cache of a core; even.
 constexpr int BAND_ROWS = 2 * ROWS_AT_ONCE;
+/// Of one task. Set by hand: whole cache lines, and enough tasks for every thread; results do not depend on
+/// it.
 constexpr int COLUMNS_PER_CHUNK = 128;
 
 void solveColumnRange(const LinkedGrid& grid, int first, int last, std::vector<float>& scratch,

@@ -13,9 +13,9 @@ constexpr int TILE_PIXELS = 128;
 /// refocused mean, k its position along the ray, and every product is weighted with 1 / (e + 2), where e is
 /// the view's difference to the reference, sum of three channels. KR has one row a channel.
 constexpr std::size_t RAY_RESIDUAL = 0;  ///< sum e, without weight
-constexpr std::size_t RAY_KK = 1;
-constexpr std::size_t RAY_KR = 2;
-constexpr std::size_t RAY_MOMENTS = 5;
+constexpr std::size_t RAY_KK = 1;        ///< sum k k
+constexpr std::size_t RAY_KR = 2;        ///< sum k r
+constexpr std::size_t RAY_MOMENTS = 5;   ///< with three channels
 
 /// Added to the residual of a view before its weight is taken, 1 / (residual + this).
 constexpr float RESIDUAL_SOFTENING = 2.0F;

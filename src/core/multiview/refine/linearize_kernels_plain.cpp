@@ -10,7 +10,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-constexpr int TAPS = 4;
+constexpr int TAPS = 4;  // of a cubic
 using Samples = std::array<int, 3>;
 
 struct Axis

@@ -12,6 +12,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int CELL_ROWS_PER_CHUNK = 8;
 /// Cells on each side of one whose sums are compared: about 20 x 20 pixels in all.
 constexpr int REACH_CELLS = 2;

@@ -9,7 +9,7 @@ namespace light_field_depth::multiview
 /// a view's brightness by the disparity, the rest is that of the rays (linearize_kernels.h). KG and KR have
 /// one row a channel.
 constexpr std::size_t MOMENT_GG = 0;
-constexpr std::size_t MOMENT_GR = 1;
+constexpr std::size_t MOMENT_GR = 1;  ///< sums of products, as the names say
 constexpr std::size_t MOMENT_KK = 2;
 constexpr std::size_t MOMENT_KG = 3;
 constexpr std::size_t momentKr(int channels)

@@ -14,10 +14,10 @@ namespace
 {
 /// A band computes some rows above and below it as well: a few for each thread are enough to share out.
 constexpr int BANDS_PER_THREAD = 3;
-constexpr int MIN_BAND_ROWS = 16;
+constexpr int MIN_BAND_ROWS = 16;  // twice what a band computes besides
 /// Opposite arms of eight directions.
 constexpr int DIRECTION_PAIRS = 4;
-constexpr int RESIDUAL_RADIUS = 2;
+constexpr int RESIDUAL_RADIUS = 2;  // of the window that compares arms, that of the normal equations
 /// Added to residuals (three channels, averaged over views and pixels) before arms are compared.
 constexpr float RESIDUAL_FLOOR = 3.0F;
 /// Reach of the derivative of four pixels.

@@ -11,6 +11,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// Of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int CELL_ROWS_PER_CHUNK = 8;
 /// Two boxes one after the other fall off towards their ends.
 constexpr int BOXES = 2;

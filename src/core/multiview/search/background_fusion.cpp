@@ -18,7 +18,8 @@ constexpr int TILES_PER_BLOCK = BLOCK_PX / TILE_PX;
 constexpr int ROWS_PER_CHUNK = 16;
 /// With fewer supported pixels about a block nothing is charged there.
 constexpr int MIN_SUPPORTED_PIXELS = 30;
-/// How much a label must be better than those at that distance to be supported.
+/// How much a label must be better than those at that distance to be supported: two labels, or four of the
+/// preset quality, which is as wide as valleys of the costs are.
 constexpr float MIN_SUPPORT = 12.0F;
 constexpr float SUPPORT_DISTANCE_PX = 0.25F;
 /// Of the supported labels about a block: nothing is taken to be farther.

@@ -11,7 +11,7 @@ namespace
 
 /// The costs of all labels are computed in one row of so many, whatever the bands.
 constexpr int OBSERVED_ROW_STRIDE = 8;
-constexpr int OBSERVED_ROW = 3;
+constexpr int OBSERVED_ROW = 3;  // the same of every tile
 constexpr int SAMPLES_PER_TILE = TILE_PX * TILE_PX / OBSERVED_ROW_STRIDE;
 /// A label outside the band speaks against it if its cost is lower by this.
 constexpr int CLEARLY_BETTER = 30;

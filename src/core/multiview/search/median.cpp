@@ -8,7 +8,7 @@ namespace
 {
 /// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
-constexpr int RADIUS = MEDIAN_SIZE / 2;
+constexpr int RADIUS = MEDIAN_SIZE / 2;  // of the window
 
 }  // namespace
 

@@ -41,7 +41,7 @@ constexpr std::array<Exchange, 58> SELECT_MEDIAN = {
      {16, 17}, {20, 21}, {23, 24}, {22, 24}, {22, 23}, {20, 23}, {20, 22}, {21, 22}, {15, 3},  {7, 4},
      {8, 17},  {16, 8},  {12, 11}, {13, 9},  {3, 7},   {21, 8},  {13, 11}, {7, 16},  {4, 21},  {11, 20},
      {4, 16},  {13, 11}, {16, 12}, {21, 13}, {8, 11},  {4, 21},  {8, 12},  {21, 8}}};
-constexpr std::size_t MEDIAN_AT = 8;
+constexpr std::size_t MEDIAN_AT = 8;  // where the exchanges leave it
 
 template <class V>
 HWY_INLINE void exchange(V& lower, V& upper)

@@ -11,6 +11,7 @@ namespace light_field_depth::multiview
 {
 namespace
 {
+/// That of the median which would wipe the structures out.
 constexpr int RADIUS = 2;
 constexpr int SIZE = 2 * RADIUS + 1;
 /// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.

@@ -17,7 +17,7 @@ namespace light_field_depth::multiview
 constexpr float VISIBILITY_BIAS = 1.5F;
 constexpr std::uint8_t NO_SURFACE = 0;      ///< nothing is known to be seen there
 constexpr std::uint8_t OUT_OF_FRAME = 255;  ///< hides everything
-constexpr int MAX_VISIBILITY_LABELS = 250;
+constexpr int MAX_VISIBILITY_LABELS = 250;  ///< with the bias below OUT_OF_FRAME
 
 /// The nearest surface that each view sees at each of its pixels.
 class VisibleSurfaces
