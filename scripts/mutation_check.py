@@ -37,7 +37,7 @@ FAULTS = [
      "finiteSpan(truth(area))", "test_tool_faults"),
     ("pfm_size", "src/io/pfm.cpp", "if (found != wanted)", "if (found < wanted)", "test_pfm"),
     ("pfm_order", "src/io/pfm.cpp", "header.big_endian = *scale > 0.0;", "header.big_endian = *scale < 0.0;", "test_pfm"),
-    ("left_behind", "src/io/files.cpp", "unlink(path_.c_str());", "", "test_result_files"),
+    ("left_behind", "src/io/files.cpp", "unlink(path_.c_str());", "", "test_files"),
     ("old_results", "src/io/result_folder.cpp", "fs::remove_all(target_ / name, error);", "", "test_result_folder"),
     ("foreign_files", "src/io/result_folder.cpp", "fs::path(name).filename() == name", "true", "test_result_folder"),
     ("single_frame", "src/io/dataset.cpp", "options.frame && description.frames.empty()", "false", "test_bad_light_fields"),

@@ -133,8 +133,7 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
   }
   updateSubscriptions();
   advertiseServices(private_node_handle);
-  ros::NodeHandle timers = private_node_handle;
-  watch_timer_ = timers.createSteadyTimer(WATCH_PERIOD, &Implementation::watch, this);
+  watch_timer_ = private_node_handle.createSteadyTimer(WATCH_PERIOD, &Implementation::watch, this);
   ROS_INFO_STREAM("Depth from " << parameters_.array.views.size() << " views, "
                                 << parameters_.array.views.front().image << " to "
                                 << parameters_.array.views.back().image << ", on " << pipeline_.threads()

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "light_field_depth/core/error.h"
-#include "light_field_depth/io/cloud_files.h"
-#include "light_field_depth/io/disparity_image.h"
 #include "light_field_depth/io/files.h"
 #include "light_field_depth/io/image_files.h"
 #include "light_field_depth/io/map_files.h"
@@ -84,38 +83,6 @@ TEST(MapFiles, KnowsItsFormatsByName)
   EXPECT_EQ(mapFormatsFromString("npy,pfm,npy"), (std::vector<MapFormat>{MapFormat::Npy, MapFormat::Pfm}));
   EXPECT_THROW(mapFormatsFromString("pfm,jpg"), InputError);
   EXPECT_THROW(mapFormatsFromString(""), InputError);
-}
-
-TEST(CloudFiles, HaveVerticesAloneAndTurnTheirAxesOnRequest)
-{
-  const TemporaryFolder folder;
-  const std::vector<ColoredPoint> points = {{1.0F, -2.0F, 3.5F, 10, 20, 30, 0}};
-  for (const auto& [axes, y] :
-       {std::make_pair(CloudAxes::Optical, -2.0F), std::make_pair(CloudAxes::YUp, 2.0F)})
-  {
-    writePly(folder / "cloud.ply", points, axes);
-    const std::string bytes = readFile(folder / "cloud.ply");
-    EXPECT_EQ(bytes.find("element camera"), std::string::npos);
-    EXPECT_NE(bytes.find("element vertex 1\n"), std::string::npos);
-    const std::size_t body = bytes.find("end_header\n") + 11;
-    ASSERT_EQ(bytes.size(), body + 15);
-    float read = 0.0F;
-    std::copy_n(bytes.data() + body + 4, 4, reinterpret_cast<char*>(&read));
-    EXPECT_EQ(read, y);
-  }
-}
-
-TEST(DisparityImage, ThePreviewShowsThreePictures)
-{
-  const cv::Mat disparity(30, 40, CV_32FC1, cv::Scalar(1.0));
-  const cv::Mat confidence(30, 40, CV_32FC1, cv::Scalar(1.0));
-  const cv::Mat grey(30, 40, CV_8UC1, cv::Scalar(77));
-  const cv::Mat preview = previewImage(grey, disparity, confidence);
-  EXPECT_EQ(preview.type(), CV_8UC3);
-  EXPECT_EQ(preview.at<cv::Vec3b>(preview.rows - 1, 3), cv::Vec3b(77, 77, 77));
-  EXPECT_GT(preview.cols, 3 * 40);
-  EXPECT_EQ(previewImage(cv::Mat(30, 40, CV_16UC3, cv::Scalar::all(60000)), disparity, confidence).size(),
-            preview.size());
 }
 
 }  // namespace
