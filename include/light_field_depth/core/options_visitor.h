@@ -14,6 +14,7 @@ template <class Options, class Visitor>
 void visitPaper2017Options(Options& options, Visitor& visit)
 {
   static_assert(std::is_same_v<std::remove_const_t<Options>, Paper2017Options>);
+  visit("paper2017_parameters", options.parameters);
   visit("volume_rows", options.volumes.rows);
   visit("volume_columns", options.volumes.columns);
   visit("initializer", options.initializer);
@@ -112,6 +113,12 @@ inline void fromString(const std::string& name, MultiviewPreset& value)
 inline void fromString(const std::string& name, ViewSelection& value)
 {
   value = viewSelectionFromString(name);
+}
+
+/// @throw InputError that lists the names
+inline void fromString(const std::string& name, Paper2017Parameters& value)
+{
+  value = paper2017ParametersFromString(name);
 }
 
 /// @throw InputError that lists the names

@@ -143,9 +143,23 @@ std::string toString(MatchDirections directions);
 /// The inverse of toString(). @throw InputError that lists the names.
 MatchDirections matchDirectionsFromString(const std::string& name);
 
+/// Whose numbers the method of 2017 takes.
+enum class Paper2017Parameters
+{
+  Tuned,     ///< the fields as they are
+  Published  ///< withPublishedParameters()
+};
+
+/// "tuned", "published".
+std::string toString(Paper2017Parameters parameters);
+/// The inverse of toString(). @throw InputError that lists the names.
+Paper2017Parameters paper2017ParametersFromString(const std::string& name);
+
 /// Settings of the method of Chen, Alain and Smolic (2017).
 struct Paper2017Options
 {
+  /// Published sets a group of the following to what the text of the paper states, to run what it describes.
+  Paper2017Parameters parameters = Paper2017Parameters::Tuned;
   AngularVolumeOptions volumes;                                 ///< which rows and columns
   FlowInitializer initializer = FlowInitializer::Cpm;           ///< what finds the first matches
   MatchDirections match_directions = MatchDirections::Forward;  ///< which of them are diffused
@@ -155,6 +169,12 @@ struct Paper2017Options
 };
 
 std::vector<std::string> validate(const Paper2017Options& options);
+
+/// The numbers of the paper (section 4) in place of the options' own, and without what it does not have:
+/// 5 levels of half the size, seeds 3 pixels apart, matches of whole pixels, weighed by their consistency
+/// alone, none dropped with its region; filters of 2000 px / 0.4 in space and 5 views / 0.1 over the angle;
+/// kappa 5, and the views smoothed as in EpicFlow.
+Paper2017Options withPublishedParameters(const Paper2017Options& options);
 
 }  // namespace light_field_depth
 

@@ -24,6 +24,10 @@ std::vector<ExpectedStage> expectedStages()
           {"variational", 150.0}};
 }
 
+constexpr EnumNames<Paper2017Parameters, 2> PARAMETERS_NAMES = {{
+    {Paper2017Parameters::Tuned, "tuned"},
+    {Paper2017Parameters::Published, "published"},
+}};
 constexpr EnumNames<FlowInitializer, 2> INITIALIZER_NAMES = {{
     {FlowInitializer::Cpm, "cpm"},
     {FlowInitializer::Dis, "dis"},
@@ -254,6 +258,34 @@ DisparityEstimate Run::estimate()
 
 }  // namespace
 
+std::string toString(Paper2017Parameters parameters)
+{
+  return enumName(PARAMETERS_NAMES, parameters);
+}
+
+Paper2017Parameters paper2017ParametersFromString(const std::string& name)
+{
+  return enumValue(PARAMETERS_NAMES, name, "choice of parameters");
+}
+
+Paper2017Options withPublishedParameters(const Paper2017Options& options)
+{
+  Paper2017Options published = options;
+  published.patch_match.levels = 5;
+  published.patch_match.pyramid_ratio = 0.5;
+  published.patch_match.grid_spacing_px = 3;
+  published.patch_match.subpixel = false;
+  published.patch_match.weigh_by_centre = false;
+  published.patch_match.min_region_seeds = 1;
+  published.feature_flow.sigma_spatial_px = 2000.0;
+  published.feature_flow.sigma_range = 0.4;
+  published.feature_flow.sigma_angular_views = 5.0;
+  published.feature_flow.sigma_angular_range = 0.1;
+  published.variational.edge_kappa = 5.0;
+  published.variational.presmoothing_px = 1.0;
+  return published;
+}
+
 std::string toString(FlowInitializer initializer)
 {
   return enumName(INITIALIZER_NAMES, initializer);
@@ -290,7 +322,9 @@ Paper2017Estimator::Paper2017Estimator(Paper2017Options options) : options_(std:
 DisparityEstimate Paper2017Estimator::estimate(const LightField& light_field, const EstimateRequest& request,
                                                RunContext& context)
 {
-  return Run(light_field, request, options_, context).estimate();
+  const bool published = options_.parameters == Paper2017Parameters::Published;
+  return Run(light_field, request, published ? withPublishedParameters(options_) : options_, context)
+      .estimate();
 }
 
 }  // namespace light_field_depth

@@ -206,6 +206,20 @@ TEST(Paper2017, TakesDisAsInitializer)
   EXPECT_LT(badOf(settingsOf(testing::crossPositions(5, 5)), 0.3, options), 12.0);
 }
 
+TEST(Paper2017, TakesTheNumbersOfThePaperInPlaceOfItsOwn)
+{
+  const auto input = standardInput(settingsOf(testing::crossPositions(3, 3)));
+  Paper2017Options published;
+  published.parameters = Paper2017Parameters::Published;
+  published.feature_flow.sigma_range = 3.0;
+  const Paper2017Options same = withPublishedParameters(published);
+  EXPECT_EQ(same.feature_flow.sigma_range, 0.4);
+  EXPECT_FALSE(same.patch_match.subpixel);
+  const cv::Mat disparity = estimate(input.light_field, published).disparity;
+  EXPECT_EQ(cv::norm(disparity, estimate(input.light_field, same).disparity, cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::norm(disparity, estimate(input.light_field).disparity, cv::NORM_INF), 0.0);
+}
+
 TEST(Paper2017, SavesItsIntermediateResults)
 {
   const auto input = standardInput(settingsOf(testing::crossPositions(3, 3)));
@@ -246,6 +260,8 @@ TEST(Paper2017, NamesItsChoices)
   EXPECT_EQ(flowInitializerFromString(toString(FlowInitializer::Dis)), FlowInitializer::Dis);
   EXPECT_EQ(matchDirectionsFromString(toString(MatchDirections::Both)), MatchDirections::Both);
   EXPECT_THROW(flowInitializerFromString("sift"), InputError);
+  EXPECT_EQ(paper2017ParametersFromString("published"), Paper2017Parameters::Published);
+  EXPECT_THROW(paper2017ParametersFromString("best"), InputError);
   Paper2017Options options;
   EXPECT_TRUE(validate(options).empty());
   options.volumes.rows = "a";

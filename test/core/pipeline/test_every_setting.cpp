@@ -19,6 +19,7 @@ const std::map<std::string, std::string>& otherValues()
       {"views", "row"},
       {"volume_rows", "0"},
       {"volume_columns", "2"},
+      {"paper2017_parameters", "published"},
       {"initializer", "dis"},
       {"match_directions", "both"},
       {"cpm_levels", "1"},
