@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "light_field_depth/core/error.h"
+#include "ros/array_baseline.h"
 #include "ros/camera_info.h"
 
 namespace light_field_depth
@@ -137,85 +138,6 @@ std::vector<cv::Point2d> positionsFrom(const std::vector<GridPosition>& grid, st
                            y * (position.row - grid[reference].row));
   }
   return positions;
-}
-
-/// One axis of the grid: how to read a row (column) index and a position on it.
-struct Axis
-{
-  int GridPosition::*along;
-  int GridPosition::*across;
-  double cv::Point2d::*metres;
-  const char* index_name;
-  const char* entry_name;
-  const char* remedy;
-};
-constexpr Axis COLUMNS = {&GridPosition::column, &GridPosition::row,  &cv::Point2d::x, "column",
-                          "-P[3] / P[0]",        "from left to right"};
-constexpr Axis ROWS = {&GridPosition::row, &GridPosition::column, &cv::Point2d::y, "row",
-                       "-P[7] / P[5]",     "from top to bottom"};
-
-/// Metres for one step of the grid, between each view and the next one on its line.
-/// @throw InputError for two neighbours in the wrong order
-std::vector<double> neighbourSteps(const std::vector<GridPosition>& grid,
-                                   const std::vector<cv::Point2d>& positions, const Axis& axis)
-{
-  std::vector<std::size_t> order(grid.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    order[i] = i;
-  }
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b)
-            {
-              return grid[a].*axis.across != grid[b].*axis.across
-                         ? grid[a].*axis.across < grid[b].*axis.across
-                         : grid[a].*axis.along < grid[b].*axis.along;
-            });
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < order.size(); ++i)
-  {
-    const GridPosition& before = grid[order[i - 1]];
-    const GridPosition& after = grid[order[i]];
-    if (before.*axis.across != after.*axis.across)
-    {
-      continue;
-    }
-    const double from_m = positions[order[i - 1]].*axis.metres;
-    const double to_m = positions[order[i]].*axis.metres;
-    if (to_m <= from_m)
-    {
-      throw InputError(nameOf(after) + ": " + axis.entry_name + " of its CameraInfo places it at " +
-                       number(to_m) + " m, but view " + toString(before) + ", whose " + axis.index_name +
-                       " is lower, stands at " + number(from_m) + " m; number the " + axis.index_name +
-                       "s of the array " + axis.remedy + ", or correct P.");
-    }
-    steps.push_back((to_m - from_m) / (after.*axis.along - before.*axis.along));
-  }
-  return steps;
-}
-
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// The baseline of adjacent views.
-double adjacentBaseline(const std::vector<GridPosition>& grid, const std::vector<cv::Point2d>& positions)
-{
-  const std::vector<double> in_rows = neighbourSteps(grid, positions, COLUMNS);
-  const std::vector<double> in_columns = neighbourSteps(grid, positions, ROWS);
-  if (!in_rows.empty())
-  {
-    return median(in_rows);
-  }
-  if (!in_columns.empty())
-  {
-    return median(in_columns);
-  }
-  throw InputError("No two of the " + std::to_string(grid.size()) +
-                   " views share a row or a column; name views that stand side by side.");
 }
 
 Pairs pairsOf(const std::vector<cv::Point2d>& points)
@@ -376,8 +298,7 @@ ArrayCalibration calibrationFromCameraInfo(const std::vector<GridPosition>& grid
   result.calibration->baseline_m = baseline_m;
   result.calibration->disparity_offset_px = disparity_offset_px;
 
-  const std::vector<double> in_columns = neighbourSteps(grid, positions, ROWS);
-  const double row_baseline_m = in_columns.empty() ? baseline_m : median(in_columns);
+  const double row_baseline_m = rowBaseline(grid, positions).value_or(baseline_m);
   if (!one_place)
   {
     warnOfOtherBaseline(parameters.baseline_x_m, baseline_m, "baseline_x", result.warnings);
