@@ -45,6 +45,8 @@ ABLATION = {
     'balanced without refinement': ['--set', 'multiview_refinements=0'],
     'paper2017 without variational refinement': START,
 }
+BORDER_PX = 15  # as in the HCI benchmark
+SAME_SURFACE = 0.02  # part of depth, as evaluate --cloud has it
 LEVELS_PER_PX, FIRST_LEVEL_PX = 8192.0, -4.0  # of truths of 16 bits, as data/README.md says
 
 
@@ -160,17 +162,53 @@ def view_truth(folder, name):
     return None
 
 
-def errors_of_views(run, folder):
-    """Percentage of the pixels off by more than BAD_PX of all views with a truth, by (row, column)."""
-    errors = {}
-    maps = os.path.join(run['folder'], 'view_maps')
-    for name in sorted(os.listdir(maps)):
-        place = re.match(r'disparity_((\d+)_(\d+))\.pfm', name)
-        truth = place and view_truth(folder, place[1])
-        if truth is not None:
-            bad = np.abs(read_pfm(os.path.join(maps, name)) - truth) > draw.BAD_PX
-            errors[int(place[2]), int(place[3])] = 100.0 * bad.mean()
-    return errors
+def hidden_from_reference(view, truth, reference_truth, infinity_px):
+    """Where a view truly sees what nearer surfaces hide from the reference, by 2 % of depth, or what its image does not reach."""
+    height, width = truth.shape
+    y, x = np.mgrid[0:height, 0:width]
+    column = np.round(x + truth * view['steps'][0] - view['offset_px'][0]).astype(int)
+    row = np.round(y + truth * view['steps'][1] - view['offset_px'][1]).astype(int)
+    outside = (column < 0) | (row < 0) | (column >= width) | (row >= height)
+    there = reference_truth[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
+    return outside | (there + infinity_px > (1 + SAME_SURFACE) * (truth + infinity_px))
+
+
+def scores_of_views(run, folder, data, reference_truth):
+    """Of each view with a truth: (row, column), and percentages and errors of its map by name."""
+    calibration = run['report'].get('calibration')
+    scores = {}
+    for i, view in enumerate(data['views']):
+        place = f'{view["row"]:02}_{view["column"]:02}'
+        truth = reference_truth if i == data['reference'] else view_truth(folder, place)
+        if truth is None:
+            continue
+        maps = os.path.join(run['folder'], 'view_maps')
+        error = np.abs(read_pfm(os.path.join(maps, f'disparity_{place}.pfm')) - truth)
+        kept = matplotlib.image.imread(os.path.join(maps, f'origin_{place}.png')) > 0
+        inner = np.zeros(truth.shape, bool)
+        inner[BORDER_PX:-BORDER_PX, BORDER_PX:-BORDER_PX] = True
+        score = {'bad': 100.0 * (error > draw.BAD_PX)[inner].mean(), 'kept': 100.0 * kept[inner].mean(),
+                 'mse_kept': 100.0 * (error[inner & kept] ** 2).mean()}
+        if calibration and i != data['reference']:
+            infinity_px = calibration['disparity_offset_px']
+            hidden = hidden_from_reference(view, truth, reference_truth, infinity_px)
+            score['hidden'] = 100.0 * hidden.mean()
+            score['hidden_kept'] = 100.0 * kept[hidden].mean()
+            score['hidden_wrong'] = 100.0 * (kept & (error > SAME_SURFACE * (truth + infinity_px)))[hidden].mean()
+        scores[view['row'], view['column']] = score
+    return scores
+
+
+def show_view_scores(page, scores, shape):
+    if len(scores) > 1:
+        page.figure('error_over_grid', draw.error_over_grid({place: score['bad'] for place, score in scores.items()}, shape,
+                                                            f'pixels off by more than {draw.BAD_PX} px, %'),
+                    'The maps of all views that have a truth.')
+    keys = {'kept': 'kept for the cloud, %', 'mse_kept': 'MSE x 100 of those', 'hidden': 'hidden from the reference, %',
+            'hidden_kept': 'of these kept, %', 'hidden_wrong': 'of these kept and off by 2 % of depth, %'}
+    page.table(['view'] + list(keys.values()),
+               [[f'{row}, {column}'] + [f'{score[key]:.3f}' if key in score else '-' for key in keys]
+                for (row, column), score in sorted(scores.items())])
 
 
 def show_clouds(page, runner, dense):
@@ -266,14 +304,9 @@ def make_page(runner):
                 'sharp everywhere where the estimate is right.')
 
     page.heading('6. Errors, times and the verdict')
-    errors = errors_of_views(dense, arguments.input)
     if truth is not None:
-        place = report['reference']
-        errors[place['row'], place['column']] = 100.0 * np.nanmean(np.abs(dense['disparity'] - truth) > draw.BAD_PX)
-    if len(errors) > 1:
-        shape = [max(place[i] for place in [(view['row'], view['column']) for view in data['views']]) + 1 for i in (0, 1)]
-        page.figure('error_over_grid', draw.error_over_grid(errors, shape, f'pixels off by more than {draw.BAD_PX} px, %'),
-                    'The maps of all views that have a truth.')
+        shape = [max(view[number] for view in data['views']) + 1 for number in ('row', 'column')]
+        show_view_scores(page, scores_of_views(dense, arguments.input, data, truth), shape)
     times = [(name, {stage: ms for stage, ms in run['report']['timings_ms'].items() if stage not in ('total', 'decode', 'write')})
              for name, run in (('balanced', first), ('paper2017', runs['paper2017']))]
     page.figure('stages', draw.stages(times), 'Where the time goes.')

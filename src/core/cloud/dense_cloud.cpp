@@ -53,43 +53,75 @@ struct Slot
   std::vector<DensePoint> points;
 };
 
-void unproject(const cloud::FusedView& fused, const View& view, const Calibration& calibration,
-               std::vector<DensePoint>& points)
+/// Points of one view, in single precision: a point is as exact as a float of metres.
+class ViewPoints
 {
-  const cloud::RowUnprojection unprojection(view, calibration);
-  const NormalOfSlope normal(view, calibration);
-  const auto offset_px = static_cast<float>(calibration.disparity_offset_px);
-  points.resize(fused.disparity.total());
-  DensePoint* point = points.data();
-  for (int y = 0; y < fused.disparity.rows; ++y)
+public:
+  ViewPoints(const View& view, const Calibration& calibration)
+      : image_(view.image), normal_(view, calibration),
+        offset_px_(static_cast<float>(calibration.disparity_offset_px)),
+        focal_times_baseline_(static_cast<float>(calibration.focal_length_px * calibration.baseline_m)),
+        ray_step_(static_cast<float>(1.0 / calibration.focal_length_px))
+  {
+    const cloud::ViewCamera camera = cloud::cameraOf(view, calibration);
+    principal_point_px_ = camera.principal_point_px;
+    centre_m_ = camera.centre_m;
+  }
+
+  /// Appends the points of a row. @return the end of what was written
+  DensePoint* write(const cloud::FusedView& fused, int y, DensePoint* point) const
   {
     const auto* const disparity = fused.disparity.ptr<float>(y);
     const auto* const confidence = fused.confidence.ptr<float>(y);
     const auto* const slope_x = fused.slope_x.ptr<float>(y);
     const auto* const slope_y = fused.slope_y.ptr<float>(y);
     const auto* const votes = fused.votes.ptr<std::uint8_t>(y);
-    for (int x = 0; x < fused.disparity.cols; ++x)
+    const auto* pixel = image_.ptr<std::uint8_t>(y);
+    const int channels = image_.channels();
+    const int green = channels == 3 ? 1 : 0;
+    const int red = channels == 3 ? 2 : 0;
+    const float ray_y = (static_cast<float>(y) - principal_point_px_.y) * ray_step_;
+    for (int x = 0; x < fused.disparity.cols; ++x, pixel += channels)
     {
-      if (std::isnan(disparity[x]))
+      const float absolute = disparity[x] + offset_px_;
+      const float z = focal_times_baseline_ / absolute;
+      if (!(absolute > 0.0F && z <= std::numeric_limits<float>::max()))
       {
         continue;
       }
-      const ColoredPoint place = unprojection.point(y, x, disparity[x]);
-      if (std::isnan(place.z))
-      {
-        continue;
-      }
-      point->x = place.x;
-      point->y = place.y;
-      point->z = place.z;
-      normal.set(x, y, disparity[x] + offset_px, slope_x[x], slope_y[x], *point);
+      point->x = centre_m_.x + (static_cast<float>(x) - principal_point_px_.x) * ray_step_ * z;
+      point->y = centre_m_.y + ray_y * z;
+      point->z = z;
+      normal_.set(x, y, absolute, slope_x[x], slope_y[x], *point);
       point->confidence = confidence[x];
-      point->b = place.b;
-      point->g = place.g;
-      point->r = place.r;
+      point->b = pixel[0];
+      point->g = pixel[green];
+      point->r = pixel[red];
       point->views = votes[x];
       ++point;
     }
+    return point;
+  }
+
+private:
+  const cv::Mat& image_;
+  NormalOfSlope normal_;
+  cv::Point2f principal_point_px_;
+  cv::Point2f centre_m_;
+  float offset_px_;
+  float focal_times_baseline_;
+  float ray_step_;
+};
+
+void unproject(const cloud::FusedView& fused, const View& view, const Calibration& calibration,
+               std::vector<DensePoint>& points)
+{
+  const ViewPoints view_points(view, calibration);
+  points.resize(fused.disparity.total());
+  DensePoint* point = points.data();
+  for (int y = 0; y < fused.disparity.rows; ++y)
+  {
+    point = view_points.write(fused, y, point);
   }
   points.resize(static_cast<std::size_t>(point - points.data()));
 }

@@ -76,6 +76,26 @@ Cluster clusterAbout(const Candidate* begin, const Candidate* end, float centre,
   return cluster;
 }
 
+/// Where all are one surface, which is nearly everywhere.
+Cluster clusterOfAll(const Candidate* begin, const Candidate* end)
+{
+  Cluster cluster;
+  cluster.heaviest = begin;
+  for (const Candidate* candidate = begin; candidate != end; ++candidate)
+  {
+    cluster.disparity += candidate->weight * (candidate->disparity - begin->disparity);
+    cluster.confidence += candidate->weight * candidate->confidence;
+    cluster.weight += candidate->weight;
+    cluster.members |= 1U << candidate->map;
+    cluster.heaviest = candidate->weight > cluster.heaviest->weight ? candidate : cluster.heaviest;
+  }
+  const float scale = 1.0F / cluster.weight;
+  cluster.disparity = begin->disparity + cluster.disparity * scale;
+  cluster.confidence *= scale;
+  cluster.votes = static_cast<int>(end - begin);
+  return cluster;
+}
+
 /// The cluster about one of the candidates that has the greatest weight; of equal ones the nearest.
 Cluster bestCluster(const Candidate* begin, const Candidate* end, const Tolerance& tolerance)
 {
@@ -100,10 +120,6 @@ Cluster bestCluster(const Candidate* begin, const Candidate* end, const Toleranc
 /// Whether the maps that agree are enough and sure enough.
 bool isSupported(const Cluster& cluster, int maps, float min_confidence)
 {
-  if (maps == 1)
-  {
-    return cluster.confidence >= min_confidence;
-  }
   const float factor =
       cluster.votes == maps ? MIN_WEIGHT_OF_AGREED_PER_CONFIDENCE : MIN_WEIGHT_PER_CONFIDENCE;
   return cluster.votes >= MIN_VOTES && cluster.weight >= factor * min_confidence;
@@ -168,66 +184,160 @@ void createMaps(const cv::Size& size, FusedView& fused)
   fused.by_first.create(size, CV_8UC1);
 }
 
+/// A row of a map that was brought to the view.
+struct WarpedRow
+{
+  const std::int32_t* source;
+  const float* disparity;
+};
+
+/// What a map gives to all rows.
+struct MapValues
+{
+  const float* confidence;
+  const float* slope_x;
+  const float* slope_y;
+  cv::Point2f steps;  ///< from the map's view to this one
+  float nearness;
+};
+
+/// Writes what the candidates of each pixel agree on.
+class ViewFusion
+{
+public:
+  ViewFusion(const std::vector<SurfaceMap>& maps, const View& view, const Tolerance& tolerance,
+             float min_confidence, const FusionScratch& scratch, FusedView& fused)
+      : sight_lines_(maps, view, tolerance), tolerance_(tolerance), min_confidence_(min_confidence),
+        scratch_(scratch), fused_(fused), all_(maps.size())
+  {
+    for (std::size_t i = 0; i < all_; ++i)
+    {
+      const cv::Point2f steps = view.steps - maps[i].steps;
+      values_[i] = {maps[i].confidence.ptr<float>(), maps[i].slope_x.ptr<float>(),
+                    maps[i].slope_y.ptr<float>(), steps,
+                    1.0F / (1.0F + WEIGHT_FALL * std::hypot(steps.x, steps.y))};
+    }
+  }
+
+  void fuseRow(int y)
+  {
+    std::array<WarpedRow, MAX_FUSED_MAPS> rows{};
+    for (std::size_t i = 0; i < all_; ++i)
+    {
+      rows[i] = {scratch_.warped[i].source.ptr<std::int32_t>(y), scratch_.warped[i].disparity.ptr<float>(y)};
+    }
+    setOutput(y);
+    for (int x = 0; x < fused_.disparity.cols; ++x)
+    {
+      all_ == 1 ? takeOnly(rows[0], x) : fusePixel(rows, x, y);
+    }
+  }
+
+private:
+  void setOutput(int y)
+  {
+    disparity_ = fused_.disparity.ptr<float>(y);
+    confidence_ = fused_.confidence.ptr<float>(y);
+    slope_x_ = fused_.slope_x.ptr<float>(y);
+    slope_y_ = fused_.slope_y.ptr<float>(y);
+    votes_ = fused_.votes.ptr<std::uint8_t>(y);
+    by_first_ = fused_.by_first.ptr<std::uint8_t>(y);
+  }
+
+  void takeOnly(const WarpedRow& row, int x)
+  {
+    const std::int32_t source = row.source[x];
+    const float confidence = source >= 0 ? values_[0].confidence[source] : -1.0F;
+    disparity_[x] = NaN;
+    if (source >= 0 && confidence >= min_confidence_)
+    {
+      write(x, row.disparity[x], confidence, {row.disparity[x], confidence, 1.0F, source, 0}, 1, 1U);
+    }
+  }
+
+  void fusePixel(const std::array<WarpedRow, MAX_FUSED_MAPS>& rows, int x, int y)
+  {
+    disparity_[x] = NaN;
+    Candidate* end = candidates_.data();
+    float lowest = std::numeric_limits<float>::infinity();
+    float highest = -lowest;
+    for (std::size_t i = 0; i < all_; ++i)
+    {
+      const std::int32_t source = rows[i].source[x];
+      if (source >= 0)
+      {
+        const float disparity = rows[i].disparity[x];
+        const float confidence = values_[i].confidence[source];
+        lowest = std::min(lowest, disparity);
+        highest = std::max(highest, disparity);
+        *end++ = {disparity, confidence, (LEAST_WEIGHT + confidence) * values_[i].nearness, source,
+                  static_cast<std::uint32_t>(i)};
+      }
+    }
+    if (end - candidates_.data() < MIN_VOTES)
+    {
+      return;
+    }
+    const bool one_surface = highest - lowest <= tolerance_.gap(lowest, SAME_SURFACE);
+    const Cluster cluster = one_surface ? clusterOfAll(candidates_.data(), end)
+                                        : bestCluster(candidates_.data(), end, tolerance_);
+    const int all = static_cast<int>(all_);
+    if (isSupported(cluster, all, min_confidence_) &&
+        (cluster.votes == all || sight_lines_.areBlocked(x, y, cluster)))
+    {
+      write(x, cluster.disparity, cluster.confidence, *cluster.heaviest, cluster.votes, cluster.members);
+    }
+  }
+
+  void write(int x, float disparity, float confidence, const Candidate& from, int votes,
+             std::uint32_t members)
+  {
+    const MapValues& map = values_[from.map];
+    const float slope_x = map.slope_x[from.source];
+    const float slope_y = map.slope_y[from.source];
+    const float squeeze = compression(slope_x, slope_y, map.steps);
+    const float stretch = squeeze > MIN_COMPRESSION ? 1.0F / squeeze : 1.0F;
+    disparity_[x] = disparity;
+    confidence_[x] = confidence;
+    slope_x_[x] = slope_x * stretch;
+    slope_y_[x] = slope_y * stretch;
+    votes_[x] = static_cast<std::uint8_t>(votes);
+    by_first_[x] = static_cast<std::uint8_t>(members & 1U);
+  }
+
+  SightLines sight_lines_;
+  const Tolerance& tolerance_;
+  float min_confidence_;
+  const FusionScratch& scratch_;
+  FusedView& fused_;
+  std::size_t all_;
+  std::array<MapValues, MAX_FUSED_MAPS> values_{};
+  std::array<Candidate, MAX_FUSED_MAPS> candidates_{};
+  // Of the row.
+  float* disparity_ = nullptr;
+  float* confidence_ = nullptr;
+  float* slope_x_ = nullptr;
+  float* slope_y_ = nullptr;
+  std::uint8_t* votes_ = nullptr;
+  std::uint8_t* by_first_ = nullptr;
+};
+
 }  // namespace
 
 void fuseView(const std::vector<SurfaceMap>& maps, const View& view, const Tolerance& tolerance,
               float min_confidence, FusionScratch& scratch, FusedView& fused)
 {
   CV_Assert(!maps.empty() && maps.size() <= MAX_FUSED_MAPS);
-  const cv::Size size = maps.front().disparity.size();
-  createMaps(size, fused);
+  createMaps(maps.front().disparity.size(), fused);
   scratch.warped.resize(maps.size());
-  std::array<float, MAX_FUSED_MAPS> nearness{};
-  std::array<cv::Point2f, MAX_FUSED_MAPS> steps;
   for (std::size_t i = 0; i < maps.size(); ++i)
   {
     warpSurface(maps[i], view, tolerance, scratch.warped[i]);
-    steps[i] = view.steps - maps[i].steps;
-    nearness[i] = 1.0F / (1.0F + WEIGHT_FALL * std::hypot(steps[i].x, steps[i].y));
   }
-  const SightLines sight_lines(maps, view, tolerance);
-  const int all = static_cast<int>(maps.size());
-  const int min_votes = std::min(MIN_VOTES, all);
-  std::array<Candidate, MAX_FUSED_MAPS> candidates{};
-  for (int y = 0; y < size.height; ++y)
+  ViewFusion fusion(maps, view, tolerance, min_confidence, scratch, fused);
+  for (int y = 0; y < fused.disparity.rows; ++y)
   {
-    for (int x = 0; x < size.width; ++x)
-    {
-      Candidate* end = candidates.data();
-      for (std::size_t i = 0; i < maps.size(); ++i)
-      {
-        const std::int32_t source = scratch.warped[i].source.ptr<std::int32_t>(y)[x];
-        if (source >= 0)
-        {
-          const float confidence = maps[i].confidence.ptr<float>()[source];
-          *end++ = {scratch.warped[i].disparity.ptr<float>(y)[x], confidence,
-                    (LEAST_WEIGHT + confidence) * nearness[i], source, static_cast<std::uint32_t>(i)};
-        }
-      }
-      float& disparity = fused.disparity.ptr<float>(y)[x];
-      disparity = NaN;
-      if (end - candidates.data() < min_votes)
-      {
-        continue;
-      }
-      const Cluster cluster = bestCluster(candidates.data(), end, tolerance);
-      const bool agreed = isSupported(cluster, all, min_confidence);
-      if (!agreed || (cluster.votes < all && !sight_lines.areBlocked(x, y, cluster)))
-      {
-        continue;
-      }
-      disparity = cluster.disparity;
-      const SurfaceMap& map = maps[cluster.heaviest->map];
-      const float slope_x = map.slope_x.ptr<float>()[cluster.heaviest->source];
-      const float slope_y = map.slope_y.ptr<float>()[cluster.heaviest->source];
-      const float squeeze = compression(slope_x, slope_y, steps[cluster.heaviest->map]);
-      const float stretch = squeeze > MIN_COMPRESSION ? 1.0F / squeeze : 1.0F;
-      fused.confidence.ptr<float>(y)[x] = cluster.confidence;
-      fused.slope_x.ptr<float>(y)[x] = slope_x * stretch;
-      fused.slope_y.ptr<float>(y)[x] = slope_y * stretch;
-      fused.votes.ptr<std::uint8_t>(y)[x] = static_cast<std::uint8_t>(cluster.votes);
-      fused.by_first.ptr<std::uint8_t>(y)[x] = static_cast<std::uint8_t>(cluster.members & 1U);
-    }
+    fusion.fuseRow(y);
   }
 }
 
