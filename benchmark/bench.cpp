@@ -37,10 +37,11 @@ struct Measurement
 constexpr const char* DEFAULT_FLAG = "--light-fields";
 
 /// The memory comes first: what others leave behind in the process would count.
-constexpr std::array<Measurement, 11> MEASUREMENTS = {{
+constexpr std::array<Measurement, 12> MEASUREMENTS = {{
     {"--memory", "the most memory that the process holds", measureMemory},
     {"--light-fields", "time and accuracy of whole light fields beside OpenCV's methods (the default)",
      compareMethods},
+    {"--presets", "time and accuracy of the presets alone", measurePresets},
     {"--ablation", "each ingredient of multiview off or changed, one at a time", ablate},
     {"--conditions",
      "the default method with noise, as cameras see, with fewer views, in grey, with uneven exposure",

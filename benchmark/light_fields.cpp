@@ -103,7 +103,47 @@ void reportConfidence(const std::vector<Result>& results, Table& table)
   }
 }
 
+/// Each with a pipeline, threads and buffers of its own.
+std::vector<Contestant> ownContestants(int threads)
+{
+  std::vector<Contestant> own;
+  for (const Variant& variant : ownMethods())
+  {
+    own.push_back(makeContestant(variant, std::make_shared<Pipeline>(threads)));
+  }
+  return own;
+}
+
 }  // namespace
+
+void measurePresets(const Settings& settings)
+{
+  Table table;
+  table.header = {"scene",         "method",       "time, median (min..max) ms", "processor ms", "MSE x 100",
+                  "BadPix 0.07 %", "BadPix 0.03 %"};
+  nlohmann::json json = describeMachine(settings);
+  std::vector<Contestant> presets = ownContestants(settings.threads);
+  presets.pop_back();  // the 2017 method has none
+  for (const std::string& input : settings.inputs)
+  {
+    const Scene scene = readScene(input, settings.threads);
+    for (const Result& result : measure(scene, presets, settings.runs))
+    {
+      const Evaluation& accuracy = result.evaluation;
+      table.rows.push_back({result.scene, result.name, toText(result.timing),
+                            fixed(median(result.timing.processor_milliseconds), 1),
+                            fixed(accuracy.mse_100, 3), fixed(accuracy.badpix_007, 2),
+                            fixed(accuracy.badpix_003, 2)});
+      nlohmann::json row;
+      row["scene"] = result.scene;
+      row["method"] = result.name;
+      row["time"] = toJson(result.timing);
+      row["accuracy"] = accuracyJson(result);
+      json["rows"].push_back(row);
+    }
+  }
+  publish(settings, "presets", table, json);
+}
 
 void compareMethods(const Settings& settings)
 {
@@ -125,11 +165,7 @@ void compareMethods(const Settings& settings)
                        "BadPix 0.07 % without a tenth (ideal)",
                        "AUSE of BadPix"};
   nlohmann::json json = describeMachine(settings);
-  std::vector<Contestant> own;
-  for (const Variant& variant : ownMethods())
-  {
-    own.push_back(makeContestant(variant, std::make_shared<Pipeline>(settings.threads)));
-  }
+  const std::vector<Contestant> own = ownContestants(settings.threads);
   for (const std::string& input : settings.inputs)
   {
     const Scene scene = readScene(input, settings.threads);

@@ -11,6 +11,9 @@ namespace light_field_depth::benchmark
 /// The presets and methods of this package. A new one joins with one line.
 const std::vector<Variant>& ownMethods();
 
+/// Time and accuracy of the presets alone, for comparing two builds in turns (scripts/bench_against.py).
+void measurePresets(const Settings& settings);
+
 /// Time and accuracy of whole light fields: the presets, the 2017 method, and what OpenCV offers, in one run.
 void compareMethods(const Settings& settings);
 

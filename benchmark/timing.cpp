@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 #include <nlohmann/json.hpp>
 
@@ -55,7 +56,10 @@ std::vector<Timing> timeInRounds(const std::vector<std::function<void()>>& tasks
       {
         tasks[i]();
       }
+      const std::clock_t before = std::clock();
       timings[i].milliseconds.push_back(millisecondsOf(tasks[i]));
+      timings[i].processor_milliseconds.push_back(1000.0 * static_cast<double>(std::clock() - before) /
+                                                  static_cast<double>(CLOCKS_PER_SEC));
     }
   }
   return timings;
@@ -77,6 +81,10 @@ nlohmann::json toJson(const Timing& timing)
   json["median_ms"] = rounded(timing.median());
   json["min_ms"] = rounded(timing.fastest());
   json["max_ms"] = rounded(timing.slowest());
+  if (!timing.processor_milliseconds.empty())
+  {
+    json["processor_median_ms"] = rounded(median(timing.processor_milliseconds));
+  }
   for (const double milliseconds : timing.milliseconds)
   {
     json["all_ms"].push_back(rounded(milliseconds));

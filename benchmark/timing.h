@@ -10,10 +10,11 @@
 
 namespace light_field_depth::benchmark
 {
-/// Wall-clock times of the same work, one entry a run.
+/// Times of the same work, one entry a run.
 struct Timing
 {
-  std::vector<double> milliseconds;
+  std::vector<double> milliseconds;                 ///< by the clock on the wall
+  std::vector<double> processor_milliseconds = {};  ///< of all threads together; empty where it was not taken
 
   double median() const;
   double fastest() const;
@@ -31,7 +32,8 @@ std::vector<Timing> timeInRounds(const std::vector<std::function<void()>>& tasks
 
 /// "183 (153..306)"; with decimals below ten.
 std::string toText(const Timing& timing);
-/// {"median_ms": 183, "min_ms": ..., "max_ms": ..., "all_ms": [...]}
+/// {"median_ms": 183, "min_ms": ..., "max_ms": ..., "all_ms": [...]}, and "processor_median_ms" where it was
+/// taken
 nlohmann::json toJson(const Timing& timing);
 
 /// Time that an action takes.
