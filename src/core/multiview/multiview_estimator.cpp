@@ -36,6 +36,9 @@ constexpr int FEW_VIEWS = 6;
 constexpr int MIN_HALVED_SIDE_PX = 32;
 /// As accurate as four, which take longer; two are worse (docs/experiments.md).
 constexpr int FAST_VIEWS_PER_ARM = 3;
+/// Of disparities that the outermost view sees four times as large: more than that among 3 x 3 pixels is an
+/// edge.
+constexpr double EDGE_JUMP_PX = 0.2;
 
 bool isLarge(const LightField& light_field)
 {
@@ -103,7 +106,7 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
     const LightField half = reduced(chosen, context);
     solve(half, request, context, estimate);
     estimate.views_used = half.views.size();
-    upsample(chosen.reference().image, context, estimate);
+    upsample(chosen, context, estimate);
   }
   else
   {
@@ -209,7 +212,7 @@ void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const Scene
   DisparityEstimate coarse;
   coarse_solver.disparity().convertTo(coarse.disparity, CV_32F, 1.0 / half_unit);
   coarse.confidence = coarse_solver.confidence();
-  upsample(chosen.reference().image, context, coarse);
+  upsample(chosen, context, coarse);
   const double unit = multiview::solverUnit(chosen);
   memory_->solver.runNear(multiview::inSolverUnit(chosen, unit),
                           multiview::solverSettings(options, measures, chosen, unit), coarse.disparity * unit,
@@ -300,12 +303,16 @@ void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasur
   estimate.filled.setTo(255, unconfirmed);
 }
 
-void MultiviewEstimator::upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate)
+void MultiviewEstimator::upsample(const LightField& light_field, RunContext& context,
+                                  DisparityEstimate& estimate)
 {
+  const cv::Mat& image = light_field.reference().image;
+  const auto edge_jump = static_cast<float>(EDGE_JUMP_PX / multiview::solverUnit(light_field));
   const StageTimer timer(context, "upsample");
   cv::Mat disparity;
   cv::Mat confidence;
-  multiview::upsample(estimate.disparity, estimate.confidence, image, context.pool, disparity, confidence);
+  multiview::upsample(estimate.disparity, estimate.confidence, edge_jump, image, context.pool, disparity,
+                      confidence);
   estimate.disparity = disparity;
   estimate.confidence = confidence;
   if (!estimate.filled.empty())

@@ -48,7 +48,7 @@ private:
   void keepResult(double unit, DisparityEstimate& estimate) const;
   void confirmPair(const LightField& chosen, const multiview::SceneMeasures& measures, RunContext& context,
                    DisparityEstimate& estimate);
-  void upsample(const cv::Mat& image, RunContext& context, DisparityEstimate& estimate);
+  void upsample(const LightField& light_field, RunContext& context, DisparityEstimate& estimate);
 
   MultiviewOptions options_;
   std::unique_ptr<FrameMemory> memory_;

@@ -86,7 +86,7 @@ TEST_P(Invariances, TwiceTheStepsAreHalfTheDisparity)
   const LightField light_field = standardLightField().light_field;
   const LightField wider = changed(light_field, [](View& view) { view.steps *= 2.0; });
   const cv::Mat twice = 2.0 * disparityOf(wider, GetParam());
-  expectEqual(twice, disparityOf(light_field, GetParam()), isFast() ? 0.1 : 1e-6, 100.0);
+  expectEqual(twice, disparityOf(light_field, GetParam()), 1e-6, 100.0);
 }
 
 TEST_P(Invariances, AMirroredSceneHasTheMirroredMap)

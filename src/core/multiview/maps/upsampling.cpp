@@ -13,9 +13,8 @@ namespace light_field_depth::multiview
 {
 namespace
 {
-constexpr int ROWS_PER_CHUNK = 32;    // of the full resolution; even
-constexpr int EDGE_RADIUS = 1;        // reduced pixels that vote at an edge
-constexpr float EDGE_JUMP_PX = 0.2F;  // of the disparity among 3 x 3 values, to be an edge
+constexpr int ROWS_PER_CHUNK = 32;  // of the full resolution; even
+constexpr int EDGE_RADIUS = 1;      // reduced pixels that vote at an edge
 constexpr float COLOUR_SCALE =
     12.0F;  // difference of colour, mean of the channels, that lowers a weight by e
 constexpr float DISTANCE_SCALE = 0.9F;  // distance in reduced pixels at which a weight has fallen to a half
@@ -24,10 +23,10 @@ constexpr float DISTANCE_SCALE = 0.9F;  // distance in reduced pixels at which a
 class Upsampler
 {
 public:
-  Upsampler(const cv::Mat& half_disparity, const cv::Mat& half_confidence, const cv::Mat& image,
-            cv::Mat& disparity, cv::Mat& confidence)
-      : half_disparity_(half_disparity), half_confidence_(half_confidence), image_(image),
-        disparity_(disparity), confidence_(confidence), channels_(image.channels())
+  Upsampler(const cv::Mat& half_disparity, const cv::Mat& half_confidence, float edge_jump,
+            const cv::Mat& image, cv::Mat& disparity, cv::Mat& confidence)
+      : half_disparity_(half_disparity), half_confidence_(half_confidence), edge_jump_(edge_jump),
+        image_(image), disparity_(disparity), confidence_(confidence), channels_(image.channels())
   {
     for (std::size_t i = 0; i < colour_weights_.size(); ++i)
     {
@@ -98,7 +97,7 @@ private:
       column(std::min(x + 1, width - 1), static_cast<std::size_t>((x + 2) % 3));
       const float lowest = std::min({low_of[0], low_of[1], low_of[2]});
       const float highest = std::max({high_of[0], high_of[1], high_of[2]});
-      if (highest - lowest > EDGE_JUMP_PX)
+      if (highest - lowest > edge_jump_)
       {
         const float middle = 0.5F * (lowest + highest);
         const int end = x + 1 == width ? disparity_.cols : 2 * x + 2;
@@ -159,6 +158,7 @@ private:
 
   const cv::Mat& half_disparity_;
   const cv::Mat& half_confidence_;
+  float edge_jump_;
   const cv::Mat& image_;
   cv::Mat& disparity_;
   cv::Mat& confidence_;
@@ -168,12 +168,12 @@ private:
 
 }  // namespace
 
-void upsample(const cv::Mat& half_disparity, const cv::Mat& half_confidence, const cv::Mat& image,
-              ThreadPool& pool, cv::Mat& disparity, cv::Mat& confidence)
+void upsample(const cv::Mat& half_disparity, const cv::Mat& half_confidence, float edge_jump,
+              const cv::Mat& image, ThreadPool& pool, cv::Mat& disparity, cv::Mat& confidence)
 {
   disparity.create(image.size(), CV_32FC1);
   confidence.create(image.size(), CV_32FC1);
-  const Upsampler upsampler(half_disparity, half_confidence, image, disparity, confidence);
+  const Upsampler upsampler(half_disparity, half_confidence, edge_jump, image, disparity, confidence);
   pool.parallelFor(0, image.rows, ROWS_PER_CHUNK, [&](int first, int last) { upsampler.run(first, last); });
 }
 

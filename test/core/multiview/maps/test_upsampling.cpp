@@ -38,7 +38,7 @@ TEST(Upsampling, FollowsTheEdgeOfTheImageAndThePlanesBesideIt)
   ThreadPool pool(2);
   cv::Mat disparity;
   cv::Mat confidence;
-  upsample(step.half, half_confidence, step.image, pool, disparity, confidence);
+  upsample(step.half, half_confidence, 0.2F, step.image, pool, disparity, confidence);
   ASSERT_EQ(disparity.size(), step.truth.size());
   const cv::Rect inner(2, 4, 66, 40);
   EXPECT_LT(cv::norm(disparity(inner), step.truth(inner), cv::NORM_INF), 0.02);
@@ -52,7 +52,7 @@ TEST(Upsampling, TakesImagesOfOddSizesAndGrey)
   ThreadPool pool(1);
   cv::Mat disparity;
   cv::Mat confidence;
-  upsample(half, half, image, pool, disparity, confidence);
+  upsample(half, half, 0.2F, image, pool, disparity, confidence);
   EXPECT_EQ(cv::norm(disparity, cv::Mat(17, 33, CV_32FC1, -0.75F), cv::NORM_INF), 0.0);
 }
 
