@@ -50,7 +50,7 @@ struct Run
   /// Of the frames after the first, up to the cut.
   Timing steadyTiming() const
   {
-    return {{timing.milliseconds.begin() + 1, timing.milliseconds.begin() + FRAMES}, {}};
+    return {{timing.milliseconds.begin() + 1, timing.milliseconds.begin() + FRAMES}};
   }
 };
 

@@ -21,17 +21,33 @@ constexpr float FILLED_BELOW_SHARE = 0.5F;
 constexpr int MAX_LABELS = 240;
 /// A later search tries the labels that the one before found within so many pixels of a tile, and so many
 /// more.
-constexpr int BAND_REACH_PX = 8;
-constexpr float BAND_MARGIN_LABELS = 4.0F;
+constexpr int BAND_REACH_PX = 4;
+constexpr float BAND_MARGIN_LABELS = 2.0F;
 /// The same for the first search of a frame that follows another one, whose objects may have moved.
 constexpr int FOLLOWED_REACH_PX = 12;
-constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
+constexpr float FOLLOWED_MARGIN_PX = 0.5F;
 /// Distance of the labels that SolverSettings::paths is meant for.
 constexpr float UNIT_LABEL_STEP_PX = 0.125F;
 /// Of a penalty: the sum over four paths, each FULL_COST and a penalty at the most, stays in 16 bits.
 constexpr int MAX_STEP = 12000;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
+
+void adaptToChannels(int channels, CostSettings& cost)
+{
+  if (channels == 1)
+  {
+    cost.truncation = std::max(1, cvRound(GREY_SHARE * static_cast<float>(cost.truncation)));
+    cost.unseen_penalty = cvRound(GREY_SHARE * static_cast<float>(cost.unseen_penalty));
+  }
+}
+
+PathSettings firstPaths(PathSettings paths, const SolverSettings& settings)
+{
+  paths.small_change_penalty =
+      cvRound(settings.first_small_change_share * static_cast<float>(paths.small_change_penalty));
+  return paths;
+}
 
 PathSettings lastPaths(PathSettings paths, const SolverSettings& settings)
 {
@@ -85,11 +101,11 @@ bool Solver::solve(const SolverSettings& settings, SearchIn where, RunContext& c
 void Solver::prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context)
 {
   const StageTimer timer(context, "prepare");
-  labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
-  paths_ = settings.paths;
-  const float small_change_penalty =
-      static_cast<float>(paths_.small_change_penalty) * labels_.step_px / UNIT_LABEL_STEP_PX;
-  paths_.small_change_penalty = cvRound(small_change_penalty);
+  last_labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
+  const bool searches_again = settings.visibility_passes > 0;
+  labels_ = searches_again ? makeLabelSpace(settings.range,
+                                            settings.label_step_px * settings.first_label_steps, MAX_LABELS)
+                           : last_labels_;
   ViewSetSettings view_settings;
   view_settings.grey = settings.grey_search;
   view_settings.blur_sigma_px = settings.blur_sigma_px;
@@ -106,17 +122,16 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
 bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& context)
 {
   CostSettings cost = settings.cost;
-  if (views_.reference.channels() == 1)
-  {
-    cost.truncation = std::max(1, cvRound(GREY_SHARE * static_cast<float>(cost.truncation)));
-    cost.unseen_penalty = cvRound(GREY_SHARE * static_cast<float>(cost.unseen_penalty));
-  }
   cost.min_seeing_views = std::min(cost.min_seeing_views, static_cast<int>(views_.views.size()));
-  if (!computeFirstCosts(settings, cost, where, context))
+  CostSettings first_cost = cost;
+  first_cost.channels = settings.begin_with_less ? ChannelChoice::Green : ChannelChoice::All;
+  adaptToChannels(views_.reference.channels(first_cost.channels), first_cost);
+  adaptToChannels(views_.reference.channels(), cost);
+  if (!computeFirstCosts(settings, first_cost, where, context))
   {
     return false;
   }
-  setPaths(paths_, context);
+  setPaths(firstPaths(settings.paths, settings), context);
   aggregate(settings, context);
   if (settings.detect_changes && !acceptFirstMap(where, context))
   {
@@ -126,6 +141,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
   {
     fuseBackground(settings, context);
   }
+  labels_ = last_labels_;
   disparity_.copyTo(first_search_);
   context.save("multiview_first_search", first_search_);
   for (int pass = 0; pass < settings.visibility_passes; ++pass)
@@ -140,13 +156,11 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
       cost_builder_.buildFromVisible(views_, labels_, bands_, surfaces_, cost, context.pool, volume_);
       if (settings.fuse_background)
       {
-        background_.chargeMoved(context.pool, volume_);
+        background_.chargeMoved(labels_, context.pool, volume_);
       }
     }
-    if (pass + 1 == settings.visibility_passes)
-    {
-      setPaths(lastPaths(paths_, settings), context);
-    }
+    const bool last = pass + 1 == settings.visibility_passes;
+    setPaths(last ? lastPaths(settings.paths, settings) : settings.paths, context);
     aggregate(settings, context);
   }
   return true;
@@ -156,6 +170,8 @@ void Solver::setPaths(const PathSettings& paths, RunContext& context)
 {
   const StageTimer timer(context, "aggregate");
   paths_ = paths;
+  paths_.small_change_penalty =
+      cvRound(static_cast<float>(paths.small_change_penalty) * labels_.step_px / UNIT_LABEL_STEP_PX);
   // Sixteen bits hold the sums of the paths.
   paths_.small_change_penalty = std::clamp(paths_.small_change_penalty, 1, MAX_STEP);
   paths_.large_change_penalty = std::clamp(paths_.large_change_penalty, 1, MAX_STEP);
@@ -172,7 +188,8 @@ bool Solver::computeFirstCosts(const SolverSettings& settings, const CostSetting
   }
   else
   {
-    bands_.setAround(disparity_, labels_, FOLLOWED_REACH_PX, FOLLOWED_MARGIN_LABELS, context.pool);
+    bands_.setAround(disparity_, labels_, FOLLOWED_REACH_PX, FOLLOWED_MARGIN_PX / labels_.step_px,
+                     context.pool);
   }
   if (!settings.detect_changes)
   {
@@ -252,9 +269,14 @@ void Solver::refine(const SolverSettings& settings, RunContext& context)
   }
   for (int i = 0; i < settings.refinements; ++i)
   {
-    linearize(settings, context);
+    const bool last = i + 1 == settings.refinements;
+    LinearizationSettings linearization = settings.linearization;
+    const bool with_less = settings.begin_with_less && i == 0 && !last;
+    linearization.channels = with_less ? ChannelChoice::Green : ChannelChoice::All;
+    linearize(settings, linearization, context);
     const StageTimer timer(context, "smooth");
-    smoothing.follow_slopes = i + 1 == settings.refinements;
+    smoothing.follow_slopes = last;
+    smoothing.reweightings = settings.smoothing.reweightings - (with_less ? 1 : 0);
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity_);
     keepNearLabels(context);
   }
@@ -265,8 +287,8 @@ void Solver::refine(const SolverSettings& settings, RunContext& context)
 /// was searched.
 void Solver::keepNearLabels(RunContext& context)
 {
-  const float low = labels_.first_px - REFINEMENT_REACH_PX;
-  const float high = labels_.disparity(static_cast<float>(labels_.count - 1)) + REFINEMENT_REACH_PX;
+  const float low = last_labels_.first_px - REFINEMENT_REACH_PX;
+  const float high = last_labels_.disparity(static_cast<float>(last_labels_.count - 1)) + REFINEMENT_REACH_PX;
   context.pool.parallelFor(0, disparity_.rows, ROWS_PER_CHUNK,
                            [&](int first, int last)
                            {
@@ -283,10 +305,11 @@ void Solver::keepNearLabels(RunContext& context)
                            });
 }
 
-void Solver::linearize(const SolverSettings& settings, RunContext& context)
+void Solver::linearize(const SolverSettings& settings, const LinearizationSettings& linearization,
+                       RunContext& context)
 {
   const StageTimer timer(context, "linearize");
-  linearizer_.run(views_, disparity_, noise_.local_slope_variance, settings.linearization, context.pool,
+  linearizer_.run(views_, disparity_, noise_.local_slope_variance, linearization, context.pool,
                   linearization_);
   discount_.apply(settings.noise_discount, context.pool, linearization_);
 }
@@ -311,7 +334,7 @@ void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
 {
   if (settings.refinements == 0)
   {
-    linearize(settings, context);
+    linearize(settings, settings.linearization, context);
   }
   context.save("multiview_curvature", linearization_.weight);
   context.save("multiview_residual", linearization_.residual);

@@ -1,5 +1,6 @@
 #include <map>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -81,7 +82,11 @@ protected:
     testing::SceneSettings settings;
     settings.size = {128, 96};
     settings.positions = testing::gridPositions(5, 5);
-    scene_ = testing::renderScene(testing::standardScene(settings.size), settings).light_field;
+    std::vector<testing::Surface> surfaces = testing::standardScene(settings.size);
+    // A part of the background is blank, as walls are.
+    surfaces.front().texture = [textured = surfaces.front().texture](double x, double y)
+    { return x > BLANK_FROM_PX ? cv::Vec3f(128.0F, 128.0F, 128.0F) : textured(x, y); };
+    scene_ = testing::renderScene(surfaces, settings).light_field;
   }
 
   cv::Mat disparity(const PipelineOptions& options)
@@ -110,6 +115,7 @@ protected:
     }
   }
 
+  static constexpr double BLANK_FROM_PX = 50.0;
   static LightField scene_;
   Pipeline pipeline_{2};
 };

@@ -20,7 +20,7 @@ struct ViewRays
 };
 
 /// The result points into `views`.
-ViewRays findViewRays(const ViewSet& views);
+ViewRays findViewRays(const ViewSet& views, ChannelChoice choice);
 
 }  // namespace light_field_depth::multiview
 

@@ -26,7 +26,7 @@ constexpr float SUPPORT_DISTANCE_PX = 0.25F;
 constexpr float FLOOR_QUANTILE = 0.05F;
 /// Charge in later searches for leaving the background, what is free of it, and its limit.
 constexpr float MOVED_CHARGE_PER_PX = 16.0F;
-constexpr float MOVED_SLACK_PX = 0.375F;
+constexpr float MOVED_SLACK_PX = 0.3F;
 constexpr int MAX_MOVED_CHARGE = 20;
 
 SupportLine::Lines linesAbout(const CostVolume& volume, int tile_column, int y)
@@ -229,10 +229,10 @@ void BackgroundFusion::chargeBlock(int block_x, int block_y, const std::vector<s
   }
 }
 
-void BackgroundFusion::chargeMoved(ThreadPool& pool, CostVolume& volume) const
+void BackgroundFusion::chargeMoved(const LabelSpace& labels, ThreadPool& pool, CostVolume& volume) const
 {
-  const auto charge = ramp(volume.bands.labels(), MOVED_SLACK_PX / labels_.step_px,
-                           MOVED_CHARGE_PER_PX * labels_.step_px, MAX_MOVED_CHARGE);
+  const auto charge = ramp(volume.bands.labels(), MOVED_SLACK_PX / labels.step_px,
+                           MOVED_CHARGE_PER_PX * labels.step_px, MAX_MOVED_CHARGE);
   pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
@@ -243,7 +243,8 @@ void BackgroundFusion::chargeMoved(ThreadPool& pool, CostVolume& volume) const
                          const std::int16_t label = moved_.at<std::int16_t>(y, x);
                          if (label != NO_LABEL)
                          {
-                           addSaturated(charge, label, x, y, volume);
+                           const float disparity = labels_.disparity(static_cast<float>(label));
+                           addSaturated(charge, std::max(0, cvRound(labels.label(disparity))), x, y, volume);
                          }
                        }
                      }
