@@ -70,7 +70,8 @@ def main():
     except (subprocess.CalledProcessError, OSError, ValueError) as error:
         if os.path.exists(partial):
             os.remove(partial)
-        sys.exit(f'submission: {error}')
+        # estimate has said itself what is wrong.
+        sys.exit(1 if isinstance(error, subprocess.CalledProcessError) else f'submission: {error}')
     missing = [scene for scene in SCENES if scene not in names]
     print(f'Wrote {arguments.output} with {len(names)} scenes.' +
           (f' The benchmark takes twelve; missing: {", ".join(missing)}.' if missing else ''))
