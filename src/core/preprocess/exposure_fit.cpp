@@ -118,7 +118,7 @@ void forEachMisfit(const ViewExposure& exposure, const PairTable& pairs, const C
 /// are a little displaced.
 void fitGain(const PairTable& pairs, const Column& shading, std::size_t channel, ViewExposure& exposure)
 {
-  constexpr double MIN_VARIANCE = 9.0;
+  constexpr double MIN_VARIANCE = 9.0;  // a deviation of three levels: less is noise
   const Column& reference = pairs.reference[channel];
   Column shaded(pairs.count);
   std::transform(shading.begin(), shading.end(), pairs.other[channel].begin(), shaded.begin(),
@@ -262,8 +262,8 @@ double rootMeanSquareChange(const ViewExposure& exposure, const PairTable& pairs
 /// are wrong, a fit finds some exposure as well, but one that helps the typical pair little.
 bool isClear(const ViewExposure& exposure, const PairTable& pairs)
 {
-  constexpr double MIN_CHANGE = 0.5;
-  constexpr double MAX_SHARE_OF_MISFIT = 0.7;
+  constexpr double MIN_CHANGE = 0.5;           // levels: less is lost in rounding
+  constexpr double MAX_SHARE_OF_MISFIT = 0.7;  // set by hand
   return rootMeanSquareChange(exposure, pairs) > MIN_CHANGE &&
          quantile(misfitsOf(exposure, pairs)) <
              MAX_SHARE_OF_MISFIT * quantile(misfitsOf(ViewExposure{}, pairs));
@@ -356,6 +356,7 @@ ViewExposure bentWhereNeeded(const PairTable& pairs, const ViewExposure& line)
 
 ViewExposure fitExposure(const std::vector<BrightnessPair>& pairs, int channels, ExposureModel model)
 {
+  // Set by hand: half of the pairs are left, as where half of the matches are wrong.
   constexpr int ROUNDS = 3;
   constexpr double KEPT_FRACTION_OF_ROUND = 0.8;
   ViewExposure exposure;

@@ -36,9 +36,9 @@ int reachOf(const LightField& light_field, bool row)
 
 }  // namespace
 
-ViewPair viewsOnLine(const LightField& light_field, bool row, int distance)
+LineViews viewsOnLine(const LightField& light_field, bool row, int distance)
 {
-  ViewPair pair;
+  LineViews pair;
   for (const int side : {1, -1})
   {
     std::size_t best = light_field.views.size();

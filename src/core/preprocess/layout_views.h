@@ -10,7 +10,7 @@
 namespace light_field_depth
 {
 /// One or two views on the claimed row or column of the reference, on opposite sides where there are two.
-struct ViewPair
+struct LineViews
 {
   std::vector<std::size_t> indices;  ///< into LightField::views
   std::vector<float> units;          ///< their steps along the line, over the distance asked for
@@ -18,7 +18,7 @@ struct ViewPair
 
 /// The views on the row (or column) of the reference that stand about `distance` grid steps from it.
 /// @return empty if there is none
-ViewPair viewsOnLine(const LightField& light_field, bool row, int distance);
+LineViews viewsOnLine(const LightField& light_field, bool row, int distance);
 
 /// Distances from the reference, in grid steps, at which both lines have views, where both exist: 1, a
 /// quarter and a half of the extent. Empty if neither line has views.

@@ -154,7 +154,7 @@ Opinion opinionOf(const LineCosts& lines, int distance)
 }
 
 /// The contrast images of a pair, moved to where no calibration's offset is left.
-std::vector<SweptView> sweptViews(const LightField& light_field, const ViewPair& pair, ThreadPool& pool)
+std::vector<SweptView> sweptViews(const LightField& light_field, const LineViews& pair, ThreadPool& pool)
 {
   std::vector<SweptView> swept;
   const std::vector<ContrastView> views = contrastViews(light_field, pair.indices, pool);

@@ -53,7 +53,7 @@ cv::Mat costsOf(const LightField& light_field, const std::vector<ContrastView>& 
   cv::Mat sum;
   for (const bool row : {true, false})
   {
-    const ViewPair pair = viewsOnLine(light_field, row, distance);
+    const LineViews pair = viewsOnLine(light_field, row, distance);
     std::vector<SweptView> swept;
     for (std::size_t i = 0; i < pair.indices.size(); ++i)
     {

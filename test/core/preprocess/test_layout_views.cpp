@@ -34,10 +34,10 @@ TEST(LayoutViews, DistancesAreOneTheHalfAndTheWholeReach)
 TEST(LayoutViews, OneViewOnEachSideOfTheReference)
 {
   const LightField field = grid(5, 5);
-  const ViewPair row = viewsOnLine(field, true, 2);
+  const LineViews row = viewsOnLine(field, true, 2);
   EXPECT_EQ(row.indices, (std::vector<std::size_t>{14, 10}));
   EXPECT_EQ(row.units, (std::vector<float>{1.0F, -1.0F}));
-  const ViewPair column = viewsOnLine(field, false, 1);
+  const LineViews column = viewsOnLine(field, false, 1);
   EXPECT_EQ(column.indices, (std::vector<std::size_t>{17, 7}));
 }
 
@@ -45,7 +45,7 @@ TEST(LayoutViews, TheNearestDistanceStandsInWithItsOwnUnit)
 {
   LightField field = grid(1, 5);
   field.views.erase(field.views.begin() + 4);  // columns 0 to 3, reference 2
-  const ViewPair pair = viewsOnLine(field, true, 2);
+  const LineViews pair = viewsOnLine(field, true, 2);
   EXPECT_EQ(pair.indices, (std::vector<std::size_t>{3, 0}));
   EXPECT_EQ(pair.units, (std::vector<float>{0.5F, -1.0F}));
   EXPECT_TRUE(viewsOnLine(field, false, 1).indices.empty());

@@ -4,7 +4,8 @@
 namespace light_field_depth::multiview
 {
 /// Weights of the evidence against a disparity, rounded from what scripts/fit_confidence.py fits; the limits
-/// keep one piece of evidence from being everything.
+/// keep one piece of evidence from being everything, and are, like what an edge begins with, set by hand
+/// before the fit.
 constexpr float BASE = -6.9F;
 constexpr float EDGE_WEIGHT = 12.0F;      // a jump in 3 x 3 pixels
 constexpr float NEAR_EDGE_WEIGHT = 4.0F;  // in 5 x 5 pixels

@@ -15,8 +15,8 @@ namespace
 {
 constexpr int ROWS_PER_CHUNK = 32;  // of the full resolution; even
 constexpr int EDGE_RADIUS = 1;      // reduced pixels that vote at an edge
-constexpr float COLOUR_SCALE =
-    12.0F;  // difference of colour, mean of the channels, that lowers a weight by e
+/// Difference of colour, mean of the channels, that lowers a weight by e. Set by hand, like the next.
+constexpr float COLOUR_SCALE = 12.0F;
 constexpr float DISTANCE_SCALE = 0.9F;  // distance in reduced pixels at which a weight has fallen to a half
 
 /// The full resolution from the reduced one, row by row.

@@ -16,7 +16,8 @@ constexpr int ROWS_PER_CHUNK = 16;
 /// Smaller differences of the two searches are left alone.
 constexpr float MIN_DROP_PX = 0.15F;
 /// A region moves back only if its energy falls below this share, its matching cost rises by less than this
-/// share of itself, and by less than this a pixel.
+/// share of itself, and by less than this a pixel. Without the last two a dark floor goes to the wall, with
+/// them a thicket before a wall gains a third (docs/experiments.md); their values are set by hand.
 constexpr double MAX_ENERGY_SHARE = 0.9F;
 constexpr double MAX_DATA_RISE = 0.25F;
 constexpr double MAX_COST_RISE = 4.0F;
