@@ -25,7 +25,7 @@ struct DisparityEstimate
 {
   /// CV_32FC1 in the size of the views: disparity of the reference view in pixels per grid step, positive
   /// nearer than the plane of zero disparity. Dense and finite: where nothing is known the value is filled
-  /// from the surroundings and the confidence is 0.
+  /// from the surroundings and the confidence is 0. A Pipeline makes it NaN where the reference is masked.
   cv::Mat disparity;
   /// CV_32FC1, 0..1; 0 where nothing supports the disparity.
   cv::Mat confidence;

@@ -42,6 +42,10 @@ struct View
   /// CV_8UC1, CV_8UC3 (BGR), CV_16UC1 or CV_16UC3; the same size and type in all views of a light field.
   cv::Mat image;
 
+  /// CV_8UC1 in the size of the image: 0 where the image shows nothing of the scene (beyond what a
+  /// rectification could fill, outside of a lens), anything else where it does. Empty: it does everywhere.
+  cv::Mat mask;
+
   /// Position of the camera in units of one grid step, x to the right, y downwards. makeLightField() makes
   /// it relative to the reference view. Calibrated arrays may have positions off the grid, and a y unit
   /// that differs from the row number where rows and columns have different baselines.
@@ -94,8 +98,9 @@ struct LightField
 /// Checks the views, sorts them row-major, chooses the reference (the view nearest the middle of the grid
 /// that the views span, unless one is named) and makes View::steps relative to it.
 /// @throw InputError if there are fewer than two views, a position occurs twice, an image is empty, of a type
-///   not listed at View::image or smaller than 16 x 16, sizes or types differ, the named reference is not
-///   among the views, all views stand at one place, or the calibration is not positive and finite.
+///   not listed at View::image or smaller than 16 x 16, sizes or types differ, a mask is not as View::mask
+///   says or leaves nothing of the reference, the named reference is not among the views, all views stand at
+///   one place, or the calibration is not positive and finite.
 LightField makeLightField(std::vector<View> views, std::optional<GridPosition> reference = std::nullopt,
                           std::optional<Calibration> calibration = std::nullopt);
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/light_field/half_resolution_kernels.h"
+#include "core/light_field/view_mask.h"
 
 namespace light_field_depth::multiview
 {
@@ -59,6 +60,7 @@ const LightField& HalfResolution::reduceWith(HalveImage halve_image, const Light
                        half.steps = 0.5 * view.steps;
                        half.offset_px = 0.5 * view.offset_px;
                        halve_image(view.image, half.image);
+                       half.mask = halvedMask(view.mask);
                      }
                    });
   return half_;

@@ -67,6 +67,12 @@ void checkImage(const View& view, const View& first)
     throw InputError(name + " has an image of type " + typeText(type) + ", but view " + toString(first.grid) +
                      " has " + typeText(first.image.type()) + "; convert all views to one type.");
   }
+  if (!view.mask.empty() && (view.mask.type() != CV_8UC1 || view.mask.size() != view.image.size()))
+  {
+    throw InputError(name + " has a mask of " + sizeText(view.mask.size()) + " pixels, " +
+                     typeText(view.mask.type()) + ", for an image of " + sizeText(view.image.size()) +
+                     "; give it 8 bits, one channel and the size of the image, or leave it out.");
+  }
   if (view.image.cols < MIN_VIEW_SIDE_PX || view.image.rows < MIN_VIEW_SIDE_PX)
   {
     throw InputError(name + " has an image of " + sizeText(view.image.size()) + " pixels; at least " +
@@ -232,6 +238,12 @@ LightField makeLightField(std::vector<View> views, std::optional<GridPosition> r
         "them. Check the positions or the CameraInfo of the views.");
   }
   light_field.views = std::move(views);
+  const cv::Mat& mask = light_field.reference().mask;
+  if (!mask.empty() && cv::countNonZero(mask) == 0)
+  {
+    throw InputError("The mask of the reference view " + toString(light_field.reference().grid) +
+                     " is 0 everywhere, so nothing is left to see; correct it or leave it out.");
+  }
   light_field.calibration = calibration;
   return light_field;
 }

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/light_field/pixel_kernels.h"
+#include "core/light_field/view_mask.h"
 
 namespace light_field_depth::multiview
 {
@@ -19,6 +20,9 @@ constexpr int DIRECTIONS = 8;
 constexpr int MAX_VIEWS_PER_ARM = 8;
 /// Room for the taps of an interpolation and for vectors that run over the end of a row.
 constexpr int SAMPLING_MARGIN_PX = 8;
+/// How far the taps of an interpolation lie from the pixel that is nearest to it, and those of a derivative
+/// from theirs.
+constexpr int SAMPLE_RADIUS_PX = 2;
 /// A cache line, and the widest vector.
 constexpr std::size_t ROW_ALIGNMENT = 64;
 
@@ -112,6 +116,18 @@ void toPlanar(const cv::Mat& image, int pad, PlanarImage& planar)
   }
 }
 
+void toPlanarMask(const cv::Mat& mask, int radius_px, int pad, PlanarImage& masked)
+{
+  if (!mask.empty())
+  {
+    toPlanar(maskedWithin(mask, radius_px), pad, masked);
+  }
+  else if (masked.width() > 0)
+  {
+    masked = PlanarImage();
+  }
+}
+
 }  // namespace
 
 void PlanarImage::create(int width, int height, int channels, int pad)
@@ -166,11 +182,14 @@ void prepareViews(const LightField& light_field, const ViewSetSettings& settings
     if (i < 0)
     {
       toPlanar(preparedImage(light_field.reference().image, settings), pad, view_set.reference);
+      toPlanarMask(light_field.reference().mask, 0, pad, view_set.reference_masked);
+      toPlanarMask(light_field.reference().mask, SAMPLE_RADIUS_PX, pad, view_set.reference_margin);
       return;
     }
     PreparedView& view = view_set.views[static_cast<std::size_t>(i)];
     const cv::Mat image = preparedImage(light_field.views[view.index].image, settings);
     toPlanar(image, pad, view.image);
+    toPlanarMask(light_field.views[view.index].mask, SAMPLE_RADIUS_PX, pad, view.masked);
   };
   pool.parallelFor(-1, static_cast<int>(order.size()), 1,
                    [&](int first, int last)

@@ -94,6 +94,9 @@ struct Arm
 struct PreparedView
 {
   PlanarImage image;
+  /// Not 0 where a sample is made of a pixel that View::mask takes out; without a size where there is no
+  /// mask.
+  PlanarImage masked;
   cv::Point2d steps;      ///< View::steps
   cv::Point2d offset_px;  ///< View::offset_px
   /// Distance from the reference in grid steps, signed: negative in the directions 4..7.
@@ -113,9 +116,17 @@ struct ViewSetSettings
 struct ViewSet
 {
   PlanarImage reference;
+  PlanarImage reference_masked;     ///< not 0 where View::mask is 0; without a size where there is no mask
+  PlanarImage reference_margin;     ///< the same with the pixels whose derivatives a masked one takes part in
   std::vector<PreparedView> views;  ///< without the reference
   std::vector<Arm> arms;
 
+  bool hasMasks() const
+  {
+    return reference_masked.width() > 0 ||
+           std::any_of(views.begin(), views.end(),
+                       [](const PreparedView& view) { return view.masked.width() > 0; });
+  }
   int width() const { return reference.width(); }
   int height() const { return reference.height(); }
 };

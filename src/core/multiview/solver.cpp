@@ -343,6 +343,22 @@ void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
   const StageTimer timer(context, "confidence");
   estimateConfidence({disparity_, searched_, first_search_, linearization_, settings.noise_sigma},
                      context.pool, confidence_);
+  if (views_.reference_masked.width() > 0)
+  {
+    forgetMasked();
+  }
+}
+
+/// The maps of other views are made of what is certain alone.
+void Solver::forgetMasked()
+{
+  for (int y = 0; y < confidence_.rows; ++y)
+  {
+    const std::uint8_t* const masked = views_.reference_masked.row(y);
+    auto* const row = confidence_.ptr<float>(y);
+    std::transform(masked, masked + confidence_.cols, row, row,
+                   [](std::uint8_t is_masked, float value) { return is_masked != 0 ? 0.0F : value; });
+  }
 }
 
 }  // namespace light_field_depth::multiview

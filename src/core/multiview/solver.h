@@ -109,6 +109,7 @@ private:
                  RunContext& context);
   void keepNearLabels(RunContext& context);
   void rateConfidence(const SolverSettings& settings, RunContext& context);
+  void forgetMasked();
   const PlanarImage& guide() const
   {
     return colour_reference_.width() > 0 ? colour_reference_ : views_.reference;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/light_field/reach.h"
+#include "core/light_field/view_mask.h"
 #include "core/multiview/multiview_estimator.h"
 #include "core/paper2017/paper2017_estimator.h"
 #include "light_field_depth/core/enum_names.h"
@@ -215,9 +216,11 @@ PipelineResult Pipeline::run(const LightField& light_field, const PipelineOption
 
   // The clouds and the estimate see the same bytes: those of 16 bits are converted once.
   const bool colours = calibrated && (request.organized_cloud || request.dense_cloud);
-  const LightField shown = colours ? toEightBit(light_field) : light_field;
+  const LightField known = withFilledMasks(light_field, pool_);
+  const LightField shown = colours ? toEightBit(known) : known;
   PipelineResult result;
   result.estimate = estimatorFor(options).estimate(shown, estimate_request, context);
+  invalidateMasked(shown, result.estimate);
   if (request.view_maps)
   {
     const StageTimer timer(context, "maps_of_views");

@@ -11,6 +11,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "core/light_field/view_mask.h"
 #include "core/preprocess/label_support.h"
 #include "core/preprocess/mutual_matches.h"
 #include "core/preprocess/plane_sweep.h"
@@ -39,6 +40,9 @@ constexpr float MARGIN_LABELS = 1.5F;
 constexpr float PAIR_PAD_FRACTION = 0.15F;
 constexpr DisparityRange NOTHING_RESOLVED = {std::numeric_limits<float>::max(),
                                              std::numeric_limits<float>::lowest()};
+
+/// Of the windows of plane sweeps, with a pixel for the blur.
+constexpr int SWEEP_WINDOW_RADIUS_PX = 3;
 
 /// Noise makes the ends of the range uncertain by this much.
 constexpr float PAD_LABELS_OF_NOISE = 0.5F;
@@ -71,6 +75,7 @@ public:
     nearest_ = nearestDistance(arms_);
     farthest_ = farthestDistance(arms_);
     shrinkViews(light_field.reference());
+    mask_ = light_field.reference().mask;
   }
 
   DisparityRange find(const DisparityRangeOptions& options)
@@ -242,8 +247,9 @@ private:
       return;
     }
     const SweepCosts volume = sweepPlanes(plan, pool_);
-    const std::vector<std::uint8_t> trusted =
+    std::vector<std::uint8_t> trusted =
         isPair(arms_) ? findMutualMatches(plan, volume, pool_) : std::vector<std::uint8_t>();
+    distrustMasked(halvings, trusted);
     const std::optional<LabelSupport> support = findSupportedLabels(volume, pool_, trusted);
     if (!support)
     {
@@ -264,6 +270,25 @@ private:
     found_ = true;
   }
 
+  /// A window that sees a masked pixel says nothing.
+  void distrustMasked(int halvings, std::vector<std::uint8_t>& trusted) const
+  {
+    if (mask_.empty())
+    {
+      return;
+    }
+    cv::Mat mask = mask_;
+    for (int i = 0; i < halvings; ++i)
+    {
+      mask = halvedMask(mask);
+    }
+    const cv::Mat masked = maskedWithin(mask, SWEEP_WINDOW_RADIUS_PX);
+    trusted.resize(masked.total(), 1);
+    std::transform(trusted.begin(), trusted.end(), masked.ptr<std::uint8_t>(), trusted.begin(),
+                   [](std::uint8_t is_trusted, std::uint8_t is_masked) -> std::uint8_t
+                   { return is_masked != 0 ? 0 : is_trusted; });
+  }
+
   /// What a single view says of small patches is often wrong where nothing contradicts it.
   void stayNearCore()
   {
@@ -274,6 +299,7 @@ private:
 
   ThreadPool& pool_;
   std::vector<AxisArm> arms_;
+  cv::Mat mask_;  ///< of the reference
   int coarse_halvings_ = 0;
   int fine_halvings_ = 0;
   double nearest_ = 0.0;

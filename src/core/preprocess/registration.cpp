@@ -10,6 +10,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "core/light_field/view_mask.h"
 #include "core/preprocess/joint_adjustment.h"
 #include "core/preprocess/label_support.h"
 #include "core/preprocess/plane_sweep.h"
@@ -247,19 +248,33 @@ Registration significant(Registration registration, const Size& size, const Regi
   return registration;
 }
 
-cv::Mat resampled(const cv::Mat& image, const ViewMisfit& misfit)
+/// Where the result at p is seen in the image.
+cv::Matx23d placeSeen(const cv::Size& size, const ViewMisfit& misfit)
 {
-  // The result at p is the image where p is seen.
-  const double middle_x = 0.5 * (image.cols - 1);
-  const double middle_y = 0.5 * (image.rows - 1);
+  const double middle_x = 0.5 * (size.width - 1);
+  const double middle_y = 0.5 * (size.height - 1);
   const double a = 1.0 + misfit.zoom;
   const double r = misfit.roll;
-  const cv::Matx23d matrix(a, -r, misfit.shift_px.x + middle_x - a * middle_x + r * middle_y,  //
-                           r, a, misfit.shift_px.y + middle_y - a * middle_y - r * middle_x);
+  return {a, -r, misfit.shift_px.x + middle_x - a * middle_x + r * middle_y,  //
+          r, a,  misfit.shift_px.y + middle_y - a * middle_y - r * middle_x};
+}
+
+cv::Mat resampled(const cv::Mat& image, const ViewMisfit& misfit)
+{
   cv::Mat result;
-  cv::warpAffine(image, result, matrix, image.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP,
-                 cv::BORDER_REPLICATE);
+  cv::warpAffine(image, result, placeSeen(image.size(), misfit), image.size(),
+                 cv::INTER_CUBIC | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
   return result;
+}
+
+/// Known is what only known pixels were interpolated of.
+cv::Mat resampledMask(const cv::Mat& mask, const ViewMisfit& misfit)
+{
+  constexpr int tap_radius_px = 2;
+  cv::Mat masked;
+  cv::warpAffine(maskedWithin(mask, tap_radius_px), masked, placeSeen(mask.size(), misfit), mask.size(),
+                 cv::INTER_NEAREST | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+  return masked == 0;
 }
 
 }  // namespace
@@ -328,6 +343,7 @@ LightField correctRegistration(const LightField& light_field, const Registration
                        else if (i != result.reference_index)
                        {
                          view.image = resampled(view.image, misfit);
+                         view.mask = view.mask.empty() ? view.mask : resampledMask(view.mask, misfit);
                        }
                      }
                    });

@@ -32,7 +32,9 @@ struct SampledView
   float step_y = 0.0F;
   float offset_x = 0.0F;
   float offset_y = 0.0F;
-  float position = 0.0F;  ///< k
+  float position = 0.0F;                 ///< k
+  const std::uint8_t* masked = nullptr;  ///< pixel (0, 0): not 0 where it takes no part; nullptr: nowhere
+  std::ptrdiff_t masked_stride = 0;      ///< bytes from row to row
 };
 
 /// Pixels that a vector may read past the end of a row.
@@ -56,6 +58,7 @@ struct LinearizeTile
   int channels = 3;
   const std::uint8_t* reference = nullptr;  ///< pixel 0 of the reference's row, VECTOR_ROOM after its end
   std::size_t reference_stride = 0;
+  const std::uint8_t* reference_masked = nullptr;  ///< of its row; nullptr: nothing is masked
   /// Of the reference's row, readable up to `stride`. No pixel is seen 16000 pixels away.
   const float* disparity = nullptr;
   int first = 0;  ///< pixels first .. first + TILE_PIXELS - 1 of the row y
@@ -72,6 +75,10 @@ struct LinearizeTile
 /// and sums the moments of each ray. The plain version computes the same values bit for bit.
 void linearizeTile(const LinearizeTile& tile);
 void linearizeTilePlain(const LinearizeTile& tile);
+
+/// Computes anew the pixels of which a view is masked: from the others. A ray that is masked as a whole adds
+/// nothing and fits badly. Where the reference is masked, all views are.
+void linearizeMaskedPixels(const LinearizeTile& tile);
 
 }  // namespace light_field_depth::multiview
 

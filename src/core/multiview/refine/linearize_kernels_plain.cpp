@@ -11,6 +11,8 @@ namespace light_field_depth::multiview
 namespace
 {
 constexpr int TAPS = 4;  // of a cubic
+/// Residual of a view that is masked where no other of its ray tells: as of one that shows something else.
+constexpr float MASKED_RESIDUAL = 100.0F;
 using Samples = std::array<int, 3>;
 
 struct Axis
@@ -86,6 +88,24 @@ Samples sampleView(const LinearizeTile& tile, const SampledView& view, int x)
   return sampleRows(tile, down, rows);
 }
 
+/// @param x of the reference's pixel
+bool isMasked(const LinearizeTile& tile, const SampledView& view, int x)
+{
+  if (tile.reference_masked != nullptr && tile.reference_masked[x] != 0)
+  {
+    return true;
+  }
+  if (view.masked == nullptr)
+  {
+    return false;
+  }
+  const float d = tile.disparity[x];
+  const auto nearest = [d](int from, float offset, float step, int size)
+  { return std::clamp(from + static_cast<int>(std::floor(offset - d * step + 0.5F)), 0, size - 1); };
+  const int row = nearest(tile.y, view.offset_y, view.step_y, tile.height);
+  return view.masked[row * view.masked_stride + nearest(x, view.offset_x, view.step_x, tile.width)] != 0;
+}
+
 /// Sums over the views of a pixel; samples in units of 1 / SAMPLE_UNIT.
 struct MeanSums
 {
@@ -147,10 +167,23 @@ void linearizePixel(const LinearizeTile& tile, std::size_t x)
   for (int ray = 0; ray < tile.ray_count; ++ray)
   {
     RaySums sums;
+    int seeing = 0;
     for (int view = tile.rays[ray].first; view < tile.rays[ray].last; ++view)
     {
+      if (isMasked(tile, tile.views[view], static_cast<int>(x)))
+      {
+        continue;
+      }
+      ++seeing;
       const Samples sample = sampleView(tile, tile.views[view], static_cast<int>(x));
       addView(tile, sample, reference, tile.views[view].position, mean, sums);
+    }
+    const int views = tile.rays[ray].last - tile.rays[ray].first;
+    if (seeing < views)
+    {
+      const auto count = static_cast<float>(views);
+      sums.residual = seeing > 0 ? sums.residual * count / static_cast<float>(seeing)
+                                 : MASKED_RESIDUAL * SAMPLE_UNIT * count;
     }
     float* const moments = momentsOf(ray);
     moments[RAY_RESIDUAL * tile.stride] = sums.residual * (1.0F / SAMPLE_UNIT);
@@ -181,6 +214,19 @@ void linearizeTilePlain(const LinearizeTile& tile)
   for (auto x = static_cast<std::size_t>(tile.first); x < last; ++x)
   {
     linearizePixel(tile, x);
+  }
+}
+
+void linearizeMaskedPixels(const LinearizeTile& tile)
+{
+  const int last = std::min(tile.width, tile.first + TILE_PIXELS);
+  const SampledView* const end = tile.views + tile.rays[tile.ray_count - 1].last;
+  for (int x = tile.first; x < last; ++x)
+  {
+    if (std::any_of(tile.views, end, [&](const SampledView& view) { return isMasked(tile, view, x); }))
+    {
+      linearizePixel(tile, static_cast<std::size_t>(x));
+    }
   }
 }
 

@@ -66,7 +66,7 @@ public:
         height_(views.height()), arms_(views.arms.size()),
         channels_(static_cast<std::size_t>(views.reference.channels(settings.channels))),
         stride_(roundUp(width_, TILE_PIXELS)), moments_(momentCount(static_cast<int>(channels_))),
-        pair_stride_(moments_ * stride_), near_ring_(2 * RESIDUAL_RADIUS + 1),
+        pair_stride_(moments_ * stride_), masked_(views.hasMasks()), near_ring_(2 * RESIDUAL_RADIUS + 1),
         pair_ring_(2 * settings.window_radius + 1)
   {
     for (int pair = 0; pair < DIRECTION_PAIRS; ++pair)
@@ -155,9 +155,17 @@ private:
     tile.refocused_stride = stride_ + 2 * GRADIENT_PAD;
     tile.moments = rayRow(y, 0);
     tile.stride = stride_;
+    if (views_.reference_margin.width() > 0)
+    {
+      tile.reference_masked = views_.reference_margin.row(y);
+    }
     for (tile.first = 0; tile.first < width_; tile.first += TILE_PIXELS)
     {
       linearizeTile(tile);
+      if (masked_)
+      {
+        linearizeMaskedPixels(tile);
+      }
     }
     for (std::size_t c = 0; c < channels_; ++c)
     {
@@ -330,6 +338,7 @@ private:
   std::size_t stride_;   ///< of one row of numbers
   std::size_t moments_;  ///< of a pair
   std::size_t pair_stride_;
+  bool masked_;             ///< some view is, somewhere
   std::vector<int> pairs_;  ///< the directions, modulo their opposites, in which there are views
   int first_ = 0;
   int last_ = 0;

@@ -24,6 +24,11 @@ SampledView sampledView(const PreparedView& view, ChannelChoice choice)
   sampled.offset_x = static_cast<float>(view.offset_px.x);
   sampled.offset_y = static_cast<float>(view.offset_px.y);
   sampled.position = view.position;
+  if (view.masked.width() > 0)
+  {
+    sampled.masked = view.masked.row(0);
+    sampled.masked_stride = static_cast<std::ptrdiff_t>(view.masked.channelStride());
+  }
   return sampled;
 }
 

@@ -43,6 +43,18 @@ struct ArmCostRow
 void armCostRow(const ArmCostRow& row, std::uint8_t* cost);
 void armCostRowPlain(const ArmCostRow& row, std::uint8_t* cost);
 
+/// Which pixels of a row are masked, not 0 there; nullptr where none is.
+struct RowMasks
+{
+  const std::uint8_t* reference = nullptr;
+  const std::uint8_t* const* views = nullptr;  ///< one pointer a view, moved as its samples are
+  int view_count = 0;
+};
+
+/// Costs of armCostRow() anew where a view is masked, from the others; FULL_COST where all are, and 0 where
+/// the reference is. There are few such pixels, so that a plain version is enough.
+void maskArmCosts(const ArmCostRow& row, const RowMasks& masks, std::uint8_t* cost);
+
 /// What one row of the cost volume with known visibility is made of.
 struct VisibleCostRow
 {

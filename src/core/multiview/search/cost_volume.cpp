@@ -78,9 +78,11 @@ struct CostVolumeBuilder::Scratch
   std::vector<const std::uint8_t*> surfaces;
   std::vector<const std::uint8_t*> shifted_pointers;  // where a run of tiles begins
   std::vector<const std::uint8_t*> shifted_surfaces;
-  std::vector<std::uint8_t> cost;     // of one label in one row
-  std::vector<std::uint8_t> inside;   // least cost of the labels in the band, of an observed row
-  std::vector<std::uint8_t> outside;  // of the others
+  std::vector<const std::uint8_t*> shifted_masked;
+  std::vector<const std::uint8_t*> masked;  // one a view, for one label; null where there is no mask
+  std::vector<std::uint8_t> cost;           // of one label in one row
+  std::vector<std::uint8_t> inside;         // least cost of the labels in the band, of an observed row
+  std::vector<std::uint8_t> outside;        // of the others
 };
 
 /// What to fill a volume with.
@@ -92,6 +94,7 @@ struct CostVolumeBuilder::Task
   const VisibleSurfaces* surfaces = nullptr;        ///< nullptr: from the arms
   const std::vector<std::uint8_t>* only = nullptr;  ///< tiles to fill; nullptr: all
   RowObserver* observer = nullptr;
+  bool masked = views.hasMasks();
 };
 
 CostVolumeBuilder::CostVolumeBuilder() = default;
@@ -152,6 +155,7 @@ struct CostVolumeBuilder::RowJob
     scratch.samples.resize(count);
     scratch.pointers.resize(count);
     scratch.surfaces.resize(count);
+    scratch.masked.resize(count);
     for (std::size_t i = 0; i < count; ++i)
     {
       scratch.samples[i].reset(views.views[i], labels, settings.channels);
@@ -203,7 +207,7 @@ private:
     {
       scratch.pointers[i] = scratch.samples[i].row(label, y);
     }
-    if (surfaces == nullptr)
+    if (surfaces == nullptr && !task.masked)
     {
       return;
     }
@@ -215,7 +219,11 @@ private:
       const double shift_y = visibleShift(view.offset_px.y - disparity * view.steps.y, views.height());
       const auto dx = static_cast<int>(std::floor(shift_x + 0.5));
       const auto dy = static_cast<int>(std::floor(shift_y + 0.5));
-      scratch.surfaces[i] = surfaces->row(static_cast<int>(i), y + dy) + dx;
+      if (surfaces != nullptr)
+      {
+        scratch.surfaces[i] = surfaces->row(static_cast<int>(i), y + dy) + dx;
+      }
+      scratch.masked[i] = view.masked.width() > 0 ? view.masked.row(y + dy) + dx : nullptr;
     }
   }
 
@@ -308,6 +316,29 @@ private:
     row.best_arms = bestArms(views.arms.size());
     row.arm_scales = arm_scales.data();
     armCostRow(row, scratch.cost.data());
+    if (task.masked)
+    {
+      maskArms(row, y, first_x);
+    }
+  }
+
+  void maskArms(const ArmCostRow& row, int y, int first_x) const
+  {
+    scratch.shifted_masked.resize(scratch.masked.size());
+    std::transform(scratch.masked.begin(), scratch.masked.end(), scratch.shifted_masked.begin(),
+                   [first_x](const std::uint8_t* masked)
+                   { return masked == nullptr ? nullptr : masked + first_x; });
+    RowMasks masks;
+    masks.reference = referenceMasked(y, first_x);
+    masks.views = scratch.shifted_masked.data();
+    masks.view_count = static_cast<int>(scratch.shifted_masked.size());
+    maskArmCosts(row, masks, scratch.cost.data());
+  }
+
+  const std::uint8_t* referenceMasked(int y, int first_x) const
+  {
+    const PlanarImage& masked = views.reference_masked;
+    return masked.width() > 0 ? masked.row(y) + first_x : nullptr;
   }
 
   void visibleCost(int label, int y, int first_x, int width) const
@@ -326,6 +357,12 @@ private:
     row.min_seeing_views = settings.min_seeing_views;
     row.unseen_penalty = settings.unseen_penalty;
     visibleCostRow(row, scratch.cost.data());
+    if (const std::uint8_t* const masked = referenceMasked(y, first_x))
+    {
+      std::transform(masked, masked + width, scratch.cost.begin(), scratch.cost.begin(),
+                     [](std::uint8_t is_masked, std::uint8_t cost)
+                     { return is_masked != 0 ? std::uint8_t{0} : cost; });
+    }
   }
 };
 

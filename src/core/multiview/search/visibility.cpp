@@ -104,6 +104,7 @@ void VisibleSurfaces::warp(const cv::Mat& disparity, const ViewSet& views, const
                        }
                        warpInto(disparity, view, surface);
                        closeGaps(view, surface);
+                       hideMasked(view, surface);
                      }
                    });
 }
@@ -167,6 +168,23 @@ void VisibleSurfaces::closeGaps(const PreparedView& view, std::uint8_t* surface)
   if (std::abs(view.steps.y) >= std::abs(view.steps.x))
   {
     closeColumns(surface + pad_, pitch_, width_, height_);
+  }
+}
+
+void VisibleSurfaces::hideMasked(const PreparedView& view, std::uint8_t* surface) const
+{
+  if (view.masked.width() == 0)
+  {
+    return;
+  }
+  for (int y = 0; y < height_; ++y)
+  {
+    const std::uint8_t* const masked = view.masked.row(y);
+    std::uint8_t* const row = surface + static_cast<std::size_t>(y) * pitch_ + pad_;
+    for (int x = 0; x < width_; ++x)
+    {
+      row[x] = masked[x] != 0 ? OUT_OF_FRAME : row[x];
+    }
   }
 }
 

@@ -16,7 +16,7 @@ namespace light_field_depth::multiview
 /// A surface of label l has the value l + VISIBILITY_BIAS, rounded down.
 constexpr float VISIBILITY_BIAS = 1.5F;
 constexpr std::uint8_t NO_SURFACE = 0;      ///< nothing is known to be seen there
-constexpr std::uint8_t OUT_OF_FRAME = 255;  ///< hides everything
+constexpr std::uint8_t OUT_OF_FRAME = 255;  ///< hides everything; also where the view is masked
 constexpr int MAX_VISIBILITY_LABELS = 250;  ///< with the bias below OUT_OF_FRAME
 
 /// The nearest surface that each view sees at each of its pixels.
@@ -33,6 +33,7 @@ public:
 private:
   void quantize(const cv::Mat& disparity, const LabelSpace& labels, ThreadPool& pool);
   void warpInto(const cv::Mat& disparity, const PreparedView& view, std::uint8_t* surface) const;
+  void hideMasked(const PreparedView& view, std::uint8_t* surface) const;
   void closeGaps(const PreparedView& view, std::uint8_t* surface) const;
 
   int width_ = 0;
