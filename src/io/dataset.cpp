@@ -13,6 +13,7 @@
 #include "io/view_store.h"
 #include "light_field_depth/core/enum_names.h"
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/mask_sources.h"
 #include "light_field_depth/io/image_files.h"
 
 namespace light_field_depth
@@ -132,6 +133,16 @@ void requireEqualImages(const std::vector<ViewFile>& files, const std::vector<Vi
                        "; all views must have one size and type.");
     }
   }
+}
+
+void maskBlack(std::vector<View>& views, ThreadPool& pool)
+{
+  pool.parallelFor(0, static_cast<int>(views.size()), 1,
+                   [&](int first, int /*last*/)
+                   {
+                     View& view = views[static_cast<std::size_t>(first)];
+                     view.mask = bothKnown(view.mask, blackMask(view.image));
+                   });
 }
 
 /// The camera of the options wins over that of the description, field by field.
@@ -313,6 +324,7 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     views[i].image = store.image(description.views[i].id);
+    views[i].mask = store.mask(description.views[i].id);
     dataset.files.push_back(description.views[i].path);
   }
   for (const std::string& note : makeAlike(views, placed.reference))
@@ -320,6 +332,10 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
     description.notes.push_back(note);
   }
   requireEqualImages(description.views, views);
+  if (options.mask_black)
+  {
+    maskBlack(views, store.pool());
+  }
   std::optional<Calibration> calibration;
   applyCamera(options.camera, description);
   if (description.camera)

@@ -12,6 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/mask_sources.h"
 #include "light_field_depth/io/files.h"
 
 namespace light_field_depth
@@ -47,12 +48,12 @@ bool isTruncated(std::string_view content)
   return false;
 }
 
-cv::Mat decode(const std::string& content)
+cv::Mat decode(const std::string& content, int flags = cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR)
 {
   try
   {
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
-    return cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    return cv::imdecode(bytes, flags);
   }
   catch (const cv::Exception& error)
   {
@@ -62,6 +63,23 @@ cv::Mat decode(const std::string& content)
     }
     return {};
   }
+}
+
+/// Whether it is a PNG whose pixels have an alpha channel.
+bool hasAlpha(std::string_view content)
+{
+  using namespace std::string_view_literals;
+  constexpr std::size_t COLOUR_TYPE_AT = 25;
+  constexpr char GREY_AND_ALPHA = 4;
+  constexpr char COLOUR_AND_ALPHA = 6;
+  return startsWith(content, "\x89PNG"sv) && content.size() > COLOUR_TYPE_AT &&
+         (content[COLOUR_TYPE_AT] == GREY_AND_ALPHA || content[COLOUR_TYPE_AT] == COLOUR_AND_ALPHA);
+}
+
+cv::Mat maskOf(const std::string& content, const cv::Size& size)
+{
+  const cv::Mat mask = hasAlpha(content) ? alphaMask(decode(content, cv::IMREAD_UNCHANGED)) : cv::Mat();
+  return mask.size() == size ? mask : cv::Mat();  // of an image that was turned upright the mask is unknown
 }
 
 /// The bytes of an image file. @return false if there is no such format, or it cannot hold the values
@@ -102,7 +120,7 @@ std::string imageFormatsText()
   return "PNG, JPEG, TIFF, BMP, PGM, PPM, WebP or EXR";
 }
 
-cv::Mat readImage(const std::filesystem::path& path)
+cv::Mat readImage(const std::filesystem::path& path, cv::Mat* mask)
 {
   const std::string content = readFile(path);
   if (content.empty())
@@ -124,6 +142,10 @@ cv::Mat readImage(const std::filesystem::path& path)
   {
     throw InputError("The image '" + path.string() +
                      "' has values that are neither of 8 nor of 16 bits nor single floats; convert it.");
+  }
+  if (mask != nullptr)
+  {
+    *mask = maskOf(content, image.size());
   }
   return image;
 }

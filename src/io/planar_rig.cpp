@@ -239,6 +239,21 @@ void numberViews(std::vector<ViewFile>& views)
   }
 }
 
+/// Where each pixel of the common camera is in the image.
+cv::Mat mapOf(const ViewWarp& warp)
+{
+  cv::Mat map(warp.common.size, CV_32FC2);
+  for (int y = 0; y < map.rows; ++y)
+  {
+    for (int x = 0; x < map.cols; ++x)
+    {
+      const cv::Point2d pixel = sourcePixel(warp, x, y);
+      map.at<cv::Vec2f>(y, x) = {static_cast<float>(pixel.x), static_cast<float>(pixel.y)};
+    }
+  }
+  return map;
+}
+
 }  // namespace
 
 cv::Matx33d nearestRotation(const cv::Matx33d& matrix, const std::string& name)
@@ -317,18 +332,19 @@ cv::Mat warped(const cv::Mat& image, const ViewWarp& warp)
                      " pixels, but its calibration is for " + std::to_string(warp.source.size.width) + " x " +
                      std::to_string(warp.source.size.height) + "; scale one of them.");
   }
-  cv::Mat map(warp.common.size, CV_32FC2);
-  for (int y = 0; y < map.rows; ++y)
-  {
-    for (int x = 0; x < map.cols; ++x)
-    {
-      const cv::Point2d pixel = sourcePixel(warp, x, y);
-      map.at<cv::Vec2f>(y, x) = {static_cast<float>(pixel.x), static_cast<float>(pixel.y)};
-    }
-  }
   cv::Mat result;
-  cv::remap(image, result, map, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_CONSTANT);
+  cv::remap(image, result, mapOf(warp), cv::noArray(), cv::INTER_CUBIC, cv::BORDER_CONSTANT);
   return result;
+}
+
+cv::Mat warpedMask(const cv::Mat& mask, const ViewWarp& warp)
+{
+  constexpr double KNOWN = 255.0;
+  const cv::Mat source = mask.empty() ? cv::Mat(warp.source.size, CV_8UC1, cv::Scalar(KNOWN)) : mask;
+  cv::Mat share;
+  cv::remap(source, share, mapOf(warp), cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+  const cv::Mat result = share == KNOWN;
+  return cv::countNonZero(result) < static_cast<int>(result.total()) ? result : cv::Mat();
 }
 
 }  // namespace light_field_depth

@@ -37,6 +37,11 @@ FolderDescription describeRig(const std::filesystem::path& folder, const std::ve
 /// An image as the common camera of its rig would see it; black where it does not reach.
 cv::Mat warped(const cv::Mat& image, const ViewWarp& warp);
 
+/// The mask (View::mask) of a warped image: masked is also what the image does not reach. Empty if nothing
+/// is.
+/// @param mask of the image; empty if nothing of it is masked
+cv::Mat warpedMask(const cv::Mat& mask, const ViewWarp& warp);
+
 }  // namespace light_field_depth
 
 #endif  // LIGHT_FIELD_DEPTH_SRC_IO_PLANAR_RIG_H

@@ -20,6 +20,7 @@ ViewStore::ViewStore(std::vector<ViewFile>& views, int threads) : pool_(threads)
   }
   views_ = views;
   images_.resize(views.size());
+  masks_.resize(views.size());
 }
 
 void ViewStore::decode(const std::vector<std::size_t>& ids)
@@ -36,7 +37,7 @@ void ViewStore::decode(const std::vector<std::size_t>& ids)
                       {
                         try
                         {
-                          images_[wanted[i]] = read(views_[wanted[i]]);
+                          images_[wanted[i]] = read(views_[wanted[i]], masks_[wanted[i]]);
                         }
                         catch (const InputError& error)
                         {
@@ -64,7 +65,7 @@ void ViewStore::encodeFloats(const std::vector<std::size_t>& ids)
     if (!white_)
     {
       // The first view decides for all of them, whichever are decoded first.
-      white_ = whiteOf(id == 0 || !images_[0].empty() ? images_[0] : read(views_[0]));
+      white_ = whiteOf(id == 0 || !images_[0].empty() ? images_[0] : read(views_[0], masks_[0]));
     }
     images_[id] = encodedLinear(images_[id], *white_);
   }
@@ -91,14 +92,19 @@ void ViewStore::readTables(const std::vector<std::size_t>& wanted)
   }
 }
 
-cv::Mat ViewStore::read(const ViewFile& view) const
+cv::Mat ViewStore::read(const ViewFile& view, cv::Mat& mask) const
 {
   if (view.part.kind != ViewPart::Kind::Whole)
   {
     return extractPart(tables_.at(view.path), view.part);
   }
-  const cv::Mat image = readImage(view.path);
-  return view.warp ? warped(image, *view.warp) : image;
+  const cv::Mat image = readImage(view.path, &mask);
+  if (!view.warp)
+  {
+    return image;
+  }
+  mask = warpedMask(mask, *view.warp);
+  return warped(image, *view.warp);
 }
 
 const cv::Mat& ViewStore::image(std::size_t id)

@@ -29,13 +29,16 @@ public:
   /// The image of a view, decoded now if need be. @throw InputError
   const cv::Mat& image(std::size_t id);
 
+  /// Where the image of a view that is decoded shows something (View::mask); empty: everywhere.
+  const cv::Mat& mask(std::size_t id) const { return masks_[id]; }
+
   /// The threads that decode, for other work between two calls.
   ThreadPool& pool() { return pool_; }
 
 private:
   /// The files that hold more than one view, as far as they are wanted.
   void readTables(const std::vector<std::size_t>& wanted);
-  cv::Mat read(const ViewFile& view) const;
+  cv::Mat read(const ViewFile& view, cv::Mat& mask) const;
   /// Linear floats become 16 bits, with one white for all views.
   void encodeFloats(const std::vector<std::size_t>& ids);
 
@@ -43,6 +46,7 @@ private:
   std::optional<float> white_;  ///< of linear floats
   std::map<std::filesystem::path, cv::Mat> tables_;
   std::vector<cv::Mat> images_;
+  std::vector<cv::Mat> masks_;  ///< of images_
   ThreadPool pool_;
 };
 

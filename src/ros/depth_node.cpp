@@ -47,6 +47,7 @@ AssemblerOptions assemblerOptions(const NodeParameters& parameters)
   AssemblerOptions options;
   options.use_camera_info = parameters.use_camera_info;
   options.rectify = parameters.rectify;
+  options.mask_black = parameters.mask_black;
   options.decimation = parameters.decimation;
   return options;
 }
@@ -237,6 +238,20 @@ void DepthNode::Implementation::dropUncalibratedViews(
   }
 }
 
+void DepthNode::Implementation::warnOfMissingMasks(const FrameSet& set,
+                                                   const std::vector<sensor_msgs::ImageConstPtr>& masks)
+{
+  for (std::size_t view = 0; view < masks.size(); ++view)
+  {
+    const ViewTopics& topics = parameters_.array.views[view];
+    if (set.images[view] && masks[view] == nullptr && !topics.mask.empty())
+    {
+      diagnostics_.warn(describe(topics) + ": no mask has come on '" + topics.mask +
+                        "', so the whole image counts; publish it latched.");
+    }
+  }
+}
+
 void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscribers)
 {
   FrameReport report;
@@ -249,7 +264,9 @@ void DepthNode::Implementation::process(FrameSet set, const Subscribers& subscri
   {
     report.used_by_view.push_back(static_cast<bool>(image));
   }
-  const LightField light_field = assembler_.assemble(set.images, infos);
+  const std::vector<sensor_msgs::ImageConstPtr> masks = input_.masks();
+  warnOfMissingMasks(set, masks);
+  const LightField light_field = assembler_.assemble(set.images, infos, masks);
   for (const std::string& warning : assembler_.warnings())
   {
     diagnostics_.warn(warning);

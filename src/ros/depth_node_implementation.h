@@ -70,6 +70,8 @@ private:
   void reportHealth(bool listening, const ViewSynchronizerStatistics& heard);
   void dropUncalibratedViews(FrameSet& set, const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
 
+  void warnOfMissingMasks(const FrameSet& set, const std::vector<sensor_msgs::ImageConstPtr>& masks);
+
   void advertiseServices(ros::NodeHandle node_handle);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);

@@ -11,6 +11,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/mask_sources.h"
 
 namespace light_field_depth
 {
@@ -102,6 +104,14 @@ void checkLayout(const sensor_msgs::Image& message, const Encoding& encoding, co
   }
 }
 
+void keepMask(const cv::Mat& image, cv::Mat* mask)
+{
+  if (mask != nullptr)
+  {
+    *mask = alphaMask(image);
+  }
+}
+
 /// @return the image itself, sharing its pixels, where there is nothing to convert
 cv::Mat converted(const cv::Mat& image, const Encoding& encoding)
 {
@@ -137,7 +147,7 @@ cv::Mat inHostOrder(const cv::Mat& image, const sensor_msgs::Image& message)
 
 }  // namespace
 
-cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name)
+cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name, cv::Mat* mask)
 {
   const Encoding* const encoding = findEncoding(message.encoding);
   if (encoding == nullptr)
@@ -157,22 +167,24 @@ cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& v
       std::memcpy(aligned.ptr(y), data + static_cast<std::size_t>(y) * message.step,
                   static_cast<std::size_t>(aligned.cols) * aligned.elemSize());
     }
+    keepMask(aligned, mask);
     return converted(inHostOrder(aligned, message), *encoding);
   }
   cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), encoding->type, data,
                  message.step);
+  keepMask(shared, mask);
   return converted(inHostOrder(shared, message), *encoding);
 }
 
-cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std::string& view_name)
+cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std::string& view_name,
+                         cv::Mat* mask)
 {
   // Where an image should be turned is for those who look at it; the calibration knows the pixels as they
-  // are.
+  // are, and so does 'unchanged', which also leaves the alpha channel.
   cv::Mat image;
   if (!message.data.empty())
   {
-    image =
-        cv::imdecode(message.data, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+    image = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
   }
   if (image.empty() || (image.depth() != CV_8U && image.depth() != CV_16U))
   {
@@ -180,12 +192,22 @@ cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std:
                      " bytes and the format '" + message.format +
                      "' cannot be decoded; publish JPEG or PNG of 8 or 16 bits.");
   }
+  keepMask(image, mask);
+  if (image.channels() == 4)
+  {
+    cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
+  }
   const Encoding* const original = findEncoding(message.format.substr(0, message.format.find(';')));
   if (original != nullptr && encodings::isBayer(original->name) && image.channels() == 1)
   {
     return converted(image, *original);
   }
   return image;
+}
+
+cv::Mat maskFromMessage(const sensor_msgs::Image& message, const std::string& view_name)
+{
+  return toGrey(imageFromMessage(message, view_name)) > 0;
 }
 
 }  // namespace light_field_depth

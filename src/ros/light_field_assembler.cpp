@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <utility>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/mask_sources.h"
 #include "light_field_depth/ros/image_conversion.h"
 #include "ros/camera_info.h"
 
@@ -14,9 +16,11 @@ namespace light_field_depth
 {
 namespace
 {
-std::string sizeText(std::uint32_t width, std::uint32_t height)
+constexpr double KNOWN = 255.0;
+
+std::string sizeText(const cv::Size& size)
 {
-  return std::to_string(width) + " x " + std::to_string(height);
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
 
 /// The middle of the first pixel is 0 before and after.
@@ -64,21 +68,49 @@ cv::Mat decimated(const cv::Mat& image, int decimation)
   return reduced;
 }
 
+/// Known is a block of known pixels.
+cv::Mat decimatedMask(const cv::Mat& mask, int decimation)
+{
+  return mask.empty() ? mask : decimated(mask, decimation) == KNOWN;
+}
+
+std::vector<cv::Mat> readMaskFiles(const ViewArray& array)
+{
+  std::vector<cv::Mat> masks;
+  for (const ViewTopics& view : array.views)
+  {
+    cv::Mat mask;
+    if (!view.mask_file.empty())
+    {
+      const cv::Mat image = cv::imread(view.mask_file, cv::IMREAD_GRAYSCALE);
+      if (image.empty())
+      {
+        throw InputError(describe(view) + ": its mask_file '" + view.mask_file +
+                         "' cannot be read as an image; correct the path in the array's description.");
+      }
+      mask = image > 0;
+    }
+    masks.push_back(mask);
+  }
+  return masks;
+}
+
 }  // namespace
 
 LightFieldAssembler::LightFieldAssembler(ViewArray array, CalibrationParameters parameters,
                                          const AssemblerOptions& options, ThreadPool& pool)
     : array_(std::move(array)), parameters_(decimated(parameters, options.decimation)), options_(options),
-      pool_(pool)
+      pool_(pool), file_masks_(readMaskFiles(array_))
 {
 }
 
 LightField LightFieldAssembler::assemble(const std::vector<ViewImage>& images,
-                                         const std::vector<sensor_msgs::CameraInfoConstPtr>& infos)
+                                         const std::vector<sensor_msgs::CameraInfoConstPtr>& infos,
+                                         const std::vector<sensor_msgs::ImageConstPtr>& masks)
 {
   checkPresent(images, infos);
-  std::vector<cv::Mat> pixels = decode(images);
-  updateCalibration(infos, pixels[array_.reference].size() / options_.decimation);
+  std::vector<Pixels> pixels = decode(images, masks);
+  updateCalibration(infos, pixels[array_.reference].image.size() / options_.decimation);
   checkSizes(pixels);
   rectify(pixels);
   std::vector<View> views;
@@ -88,7 +120,8 @@ LightField LightFieldAssembler::assemble(const std::vector<ViewImage>& images,
     {
       View view;
       view.grid = array_.views[i].grid;
-      view.image = pixels[i];
+      view.image = pixels[i].image;
+      view.mask = pixels[i].mask;
       view.steps = views_[i].steps;
       view.offset_px = views_[i].offset_px;
       views.push_back(std::move(view));
@@ -97,9 +130,10 @@ LightField LightFieldAssembler::assemble(const std::vector<ViewImage>& images,
   return makeLightField(std::move(views), array_.views[array_.reference].grid, calibration_);
 }
 
-std::vector<cv::Mat> LightFieldAssembler::decode(const std::vector<ViewImage>& images) const
+std::vector<LightFieldAssembler::Pixels> LightFieldAssembler::decode(
+    const std::vector<ViewImage>& images, const std::vector<sensor_msgs::ImageConstPtr>& masks) const
 {
-  std::vector<cv::Mat> pixels(images.size());
+  std::vector<Pixels> pixels(images.size());
   pool_.parallelFor(0, static_cast<int>(images.size()), 1,
                     [&](int first, int /*last*/)
                     {
@@ -107,20 +141,46 @@ std::vector<cv::Mat> LightFieldAssembler::decode(const std::vector<ViewImage>& i
                       if (images[i])
                       {
                         const std::string name = describe(array_.views[i]);
-                        pixels[i] = images[i].raw() != nullptr
-                                        ? imageFromMessage(*images[i].raw(), name)
-                                        : imageFromMessage(*images[i].compressed(), name);
+                        Pixels& view = pixels[i];
+                        view.image = images[i].raw() != nullptr
+                                         ? imageFromMessage(*images[i].raw(), name, &view.mask)
+                                         : imageFromMessage(*images[i].compressed(), name, &view.mask);
+                        addGivenMasks(i, i < masks.size() ? masks[i] : nullptr, view);
                       }
                     });
   return pixels;
 }
 
-void LightFieldAssembler::rectify(std::vector<cv::Mat>& images) const
+void LightFieldAssembler::addGivenMasks(std::size_t view, const sensor_msgs::ImageConstPtr& message,
+                                        Pixels& pixels) const
 {
-  pool_.parallelFor(0, static_cast<int>(images.size()), 1,
+  const std::string name = describe(array_.views[view]);
+  std::vector<cv::Mat> masks = {file_masks_[view]};
+  if (message != nullptr)
+  {
+    masks.push_back(maskFromMessage(*message, name + ", mask"));
+  }
+  if (options_.mask_black)
+  {
+    masks.push_back(blackMask(pixels.image));
+  }
+  for (const cv::Mat& mask : masks)
+  {
+    if (!mask.empty() && mask.size() != pixels.image.size())
+    {
+      throw InputError(name + ": its mask is " + sizeText(mask.size()) + " pixels, but its image is " +
+                       sizeText(pixels.image.size()) + "; give the mask of the image as it comes.");
+    }
+    pixels.mask = bothKnown(pixels.mask, mask);
+  }
+}
+
+void LightFieldAssembler::rectify(std::vector<Pixels>& views) const
+{
+  pool_.parallelFor(0, static_cast<int>(views.size()), 1,
                     [&](int first, int /*last*/)
                     {
-                      cv::Mat& image = images[static_cast<std::size_t>(first)];
+                      auto& [image, mask] = views[static_cast<std::size_t>(first)];
                       const auto camera = std::find_if(cameras_.begin(), cameras_.end(),
                                                        [first](const KnownCamera& known) {
                                                          return known.view == static_cast<std::size_t>(first);
@@ -128,10 +188,12 @@ void LightFieldAssembler::rectify(std::vector<cv::Mat>& images) const
                       if (!image.empty() && camera != cameras_.end())
                       {
                         image = camera->rectifier.apply(image);
+                        mask = camera->rectifier.applyToMask(mask);
                       }
                       if (!image.empty() && options_.decimation > 1)
                       {
                         image = decimated(image, options_.decimation);
+                        mask = decimatedMask(mask, options_.decimation);
                       }
                     });
 }
@@ -272,19 +334,18 @@ bool LightFieldAssembler::isCurrent(const std::vector<sensor_msgs::CameraInfoCon
                                                  });
 }
 
-void LightFieldAssembler::checkSizes(const std::vector<cv::Mat>& images) const
+void LightFieldAssembler::checkSizes(const std::vector<Pixels>& views) const
 {
   for (const KnownCamera& camera : cameras_)
   {
-    const cv::Mat& image = images[camera.view];
+    const cv::Mat& image = views[camera.view].image;
     const sensor_msgs::CameraInfo& info = camera.rectifier.rectified();
     const cv::Size expected(static_cast<int>(info.width), static_cast<int>(info.height));
     if (!image.empty() && image.size() != expected)
     {
       throw InputError(
-          describe(array_.views[camera.view]) + ": the image is " +
-          sizeText(static_cast<std::uint32_t>(image.cols), static_cast<std::uint32_t>(image.rows)) +
-          " pixels, but its CameraInfo says " + sizeText(info.width, info.height) +
+          describe(array_.views[camera.view]) + ": the image is " + sizeText(image.size()) +
+          " pixels, but its CameraInfo says " + sizeText(expected) +
           ", binning and region of interest included; publish the CameraInfo that belongs to the "
           "image.");
     }

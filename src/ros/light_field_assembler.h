@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/light_field.h"
@@ -26,6 +27,9 @@ struct AssemblerOptions
   /// true: the images are raw, and are rectified by their CameraInfo.
   bool rectify = false;
 
+  /// What is black up to the border of an image, as it comes, is masked.
+  bool mask_black = false;
+
   /// Views are reduced to one pixel for so many by so many.
   int decimation = 1;
 };
@@ -35,6 +39,7 @@ struct AssemblerOptions
 class LightFieldAssembler
 {
 public:
+  /// @throw InputError for a mask_file of the array that cannot be read
   LightFieldAssembler(ViewArray array, CalibrationParameters parameters, const AssemblerOptions& options,
                       ThreadPool& pool);
 
@@ -42,9 +47,11 @@ public:
   /// while they live. It has the views that have an image.
   /// @param images one for each view of the array, none where a camera is missing, which is not the reference
   /// @param infos  one for each view, null where none is known; not looked at when use_camera_info is false
+  /// @param masks  from the topics of the array, null where there is none; empty: none at all
   /// @throw InputError
   LightField assemble(const std::vector<ViewImage>& images,
-                      const std::vector<sensor_msgs::CameraInfoConstPtr>& infos);
+                      const std::vector<sensor_msgs::CameraInfoConstPtr>& infos,
+                      const std::vector<sensor_msgs::ImageConstPtr>& masks = {});
 
   /// The camera of the reference view of the last light field: its CameraInfo without binning, region of
   /// interest, distortion and baseline, or what the parameters say of it. Zeros when it is not calibrated.
@@ -54,6 +61,13 @@ public:
   const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
+  /// What a view shows, and where it shows something (View::mask).
+  struct Pixels
+  {
+    cv::Mat image;
+    cv::Mat mask;
+  };
+
   /// The CameraInfo of one view, as it came and as the calibration uses it.
   struct KnownCamera
   {
@@ -68,15 +82,18 @@ private:
   void warnOfRawImages();
   void checkPresent(const std::vector<ViewImage>& images,
                     const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
-  void checkSizes(const std::vector<cv::Mat>& images) const;
-  std::vector<cv::Mat> decode(const std::vector<ViewImage>& images) const;
-  void rectify(std::vector<cv::Mat>& images) const;
+  void checkSizes(const std::vector<Pixels>& views) const;
+  std::vector<Pixels> decode(const std::vector<ViewImage>& images,
+                             const std::vector<sensor_msgs::ImageConstPtr>& masks) const;
+  void addGivenMasks(std::size_t view, const sensor_msgs::ImageConstPtr& message, Pixels& pixels) const;
+  void rectify(std::vector<Pixels>& views) const;
   bool isCurrent(const std::vector<sensor_msgs::CameraInfoConstPtr>& infos) const;
 
   ViewArray array_;
   CalibrationParameters parameters_;
   AssemblerOptions options_;
   ThreadPool& pool_;
+  std::vector<cv::Mat> file_masks_;         ///< of every view of the array, empty where it has none
   std::vector<KnownCamera> cameras_;        ///< that the calibration was made of
   std::optional<Calibration> calibration_;  ///< absent when depth is unknown
   std::vector<ViewGeometry> views_;         ///< of every view of the array; empty: to be found anew

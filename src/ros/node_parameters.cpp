@@ -169,6 +169,7 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   reader.read("paused", parameters.paused);
   reader.read("save_directory", parameters.save_directory);
   reader.read("rectify", parameters.rectify);
+  reader.read("mask_black", parameters.mask_black);
   reader.readInRange("decimation", 1, MAX_DECIMATION, parameters.decimation);
   if (parameters.rectify && !parameters.use_camera_info)
   {

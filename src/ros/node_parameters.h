@@ -59,6 +59,9 @@ struct NodeParameters
   /// `rectify`: the images are raw; each view is rectified by K, D, R and P of its CameraInfo.
   bool rectify = false;
 
+  /// `mask_black`: what is black up to the border of an image shows nothing of the scene.
+  bool mask_black = false;
+
   /// `decimation`: views are reduced to one pixel for so many by so many.
   int decimation = 1;
 

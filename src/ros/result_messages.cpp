@@ -53,6 +53,13 @@ struct Bounds
   float max = std::numeric_limits<float>::lowest();
 };
 
+/// Bounds what is not NaN: what the mask of the view leaves. The whole map where that is nothing.
+cv::Rect knownWindow(const cv::Mat& disparity)
+{
+  const cv::Rect window = cv::boundingRect(disparity == disparity);
+  return window.empty() ? cv::Rect({}, disparity.size()) : window;
+}
+
 /// Writes d + d_inf where it is valid, NaN elsewhere; returns the bounds of what is valid.
 /// @param lowest exclusive
 Bounds writeAbsoluteDisparity(const DisparityEstimate& estimate, float offset_px, float lowest,
@@ -129,8 +136,11 @@ stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
   message->f = calibration ? static_cast<float>(calibration->focal_length_px) : 0.0F;
   message->T = calibration ? static_cast<float>(calibration->baseline_m) : 0.0F;
   message->delta_d = DISPARITY_RESOLUTION_PX;
-  message->valid_window.width = message->image.width;
-  message->valid_window.height = message->image.height;
+  const cv::Rect window = knownWindow(estimate.disparity);
+  message->valid_window.x_offset = static_cast<std::uint32_t>(window.x);
+  message->valid_window.y_offset = static_cast<std::uint32_t>(window.y);
+  message->valid_window.width = static_cast<std::uint32_t>(window.width);
+  message->valid_window.height = static_cast<std::uint32_t>(window.height);
 
   const float offset_px = calibration ? static_cast<float>(calibration->disparity_offset_px) : 0.0F;
   // Infinity is where the disparity of parallel cameras is 0; nobody knows where without a calibration.
@@ -208,6 +218,7 @@ sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header, cons
   estimate.disparity.convertTo(levels, CV_8UC1, scale, -scale * estimate.range.min);
   cv::Mat pixels = pixelsOf(*message, CV_8UC3);
   cv::applyColorMap(levels, pixels, cv::COLORMAP_TURBO);
+  pixels.setTo(cv::Scalar(), estimate.disparity != estimate.disparity);  // NaN: masked
   return message;
 }
 

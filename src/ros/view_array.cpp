@@ -154,8 +154,17 @@ LightField placeholders(const std::vector<GridPosition>& grid, const std::option
   return makeLightField(std::move(views), reference);
 }
 
-ViewArray patternArray(int rows, int columns, ViewSelection layout, const std::string& image_pattern,
-                       const std::string& camera_info_pattern, const std::optional<GridPosition>& reference)
+/// What {row} and {column} make the names of each view.
+struct Patterns
+{
+  std::string image = DEFAULT_IMAGE_TOPIC;
+  std::string camera_info = DEFAULT_CAMERA_INFO_TOPIC;
+  std::string mask;
+  std::string mask_file;
+};
+
+ViewArray patternArray(int rows, int columns, ViewSelection layout, const Patterns& patterns,
+                       const std::optional<GridPosition>& reference)
 {
   std::vector<GridPosition> grid;
   for (int row = 0; row < rows; ++row)
@@ -170,8 +179,10 @@ ViewArray patternArray(int rows, int columns, ViewSelection layout, const std::s
   array.reference = selected.reference_index;
   for (const View& view : selected.views)
   {
-    array.views.push_back({view.grid, topicFromPattern(image_pattern, view.grid),
-                           topicFromPattern(camera_info_pattern, view.grid)});
+    array.views.push_back({view.grid, topicFromPattern(patterns.image, view.grid),
+                           topicFromPattern(patterns.camera_info, view.grid),
+                           topicFromPattern(patterns.mask, view.grid),
+                           topicFromPattern(patterns.mask_file, view.grid)});
   }
   return array;
 }
@@ -181,8 +192,10 @@ ViewArray patternArrayFrom(StructReader& fields, const std::optional<GridPositio
   const int rows = fields.integer("rows", 1, MAX_SIDE);
   const int columns = fields.integer("columns", 1, MAX_SIDE);
   const ViewSelection layout = layoutFrom(fields.text("layout", "all"));
-  return patternArray(rows, columns, layout, fields.text("image_topic", DEFAULT_IMAGE_TOPIC),
-                      fields.text("camera_info_topic", DEFAULT_CAMERA_INFO_TOPIC), reference);
+  const Patterns patterns{fields.text("image_topic", DEFAULT_IMAGE_TOPIC),
+                          fields.text("camera_info_topic", DEFAULT_CAMERA_INFO_TOPIC),
+                          fields.text("mask_topic", ""), fields.text("mask_file", "")};
+  return patternArray(rows, columns, layout, patterns, reference);
 }
 
 ViewArray listedArrayFrom(const XmlRpcValue& list, const std::optional<GridPosition>& reference)
@@ -197,6 +210,8 @@ ViewArray listedArrayFrom(const XmlRpcValue& list, const std::optional<GridPosit
     view.grid.column = fields.integer("column", -MAX_SIDE, MAX_SIDE);
     view.image = fields.text("image");
     view.camera_info = fields.text("camera_info");
+    view.mask = fields.text("mask", "");
+    view.mask_file = fields.text("mask_file", "");
     fields.refuseUnknown();
     grid.push_back(view.grid);
     array.views.push_back(std::move(view));
@@ -212,10 +227,11 @@ void refuseBadTopics(const ViewArray& array)
 {
   for (const ViewTopics& view : array.views)
   {
-    for (const std::string& topic : {view.image, view.camera_info})
+    for (const std::string& topic : {view.image, view.camera_info, view.mask})
     {
       std::string problem;
-      if (!ros::names::validate(topic, problem) || topic.front() == '~')
+      const bool none = topic.empty() && view.mask.empty();  // of the image and the CameraInfo there is one
+      if (!none && (!ros::names::validate(topic, problem) || topic.front() == '~'))
       {
         throw InputError(
             "View " + toString(view.grid) + " has the topic '" + topic +
@@ -291,8 +307,7 @@ ViewArray viewArrayFromParameter(const XmlRpc::XmlRpcValue& parameter)
 
 ViewArray defaultViewArray()
 {
-  return patternArray(DEFAULT_SIDE, DEFAULT_SIDE, ViewSelection::Cross, DEFAULT_IMAGE_TOPIC,
-                      DEFAULT_CAMERA_INFO_TOPIC, std::nullopt);
+  return patternArray(DEFAULT_SIDE, DEFAULT_SIDE, ViewSelection::Cross, Patterns(), std::nullopt);
 }
 
 }  // namespace light_field_depth

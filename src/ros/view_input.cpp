@@ -32,7 +32,7 @@ ViewInput::ViewInput(const ros::NodeHandle& node_handle, const ros::NodeHandle& 
       quorum_(parameters.array, static_cast<std::size_t>(parameters.min_views)),
       on_frame_(std::move(on_frame)), on_calibrated_(std::move(on_calibrated)), image_transport_(node_handle),
       synchronizer_(synchronizerOptions(parameters, quorum_)), infos_(parameters.array.views.size()),
-      given_up_(parameters.array.views.size())
+      masks_(parameters.array.views.size()), given_up_(parameters.array.views.size())
 {
 }
 
@@ -85,6 +85,17 @@ void ViewInput::subscribeTo(std::size_t view)
     info_subscribers_.push_back(node_handle_.subscribe<sensor_msgs::CameraInfo>(
         topics.camera_info, 1, on_info, ros::VoidPtr(), hints));
   }
+  if (!topics.mask.empty())
+  {
+    const boost::function<void(const sensor_msgs::ImageConstPtr&)> on_mask =
+        [this, view](const sensor_msgs::ImageConstPtr& mask)
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      masks_[view] = mask;
+    };
+    mask_subscribers_.push_back(
+        node_handle_.subscribe<sensor_msgs::Image>(topics.mask, 1, on_mask, ros::VoidPtr(), hints));
+  }
 }
 
 void ViewInput::unsubscribe()
@@ -101,9 +112,14 @@ void ViewInput::unsubscribe()
   {
     subscriber.shutdown();
   }
+  for (ros::Subscriber& subscriber : mask_subscribers_)
+  {
+    subscriber.shutdown();
+  }
   image_subscribers_.clear();
   compressed_subscribers_.clear();
   info_subscribers_.clear();
+  mask_subscribers_.clear();
   const std::lock_guard<std::mutex> lock(mutex_);
   synchronizer_.reset();
   given_up_.assign(given_up_.size(), false);
@@ -181,6 +197,12 @@ std::vector<sensor_msgs::CameraInfoConstPtr> ViewInput::cameraInfos() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   return infos_;
+}
+
+std::vector<sensor_msgs::ImageConstPtr> ViewInput::masks() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return masks_;
 }
 
 ViewSynchronizerStatistics ViewInput::statistics() const

@@ -13,6 +13,7 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
 
 #include "ros/frame_queue.h"
 #include "ros/node_parameters.h"
@@ -51,6 +52,7 @@ public:
 
   const ViewQuorum& quorum() const { return quorum_; }
   std::vector<sensor_msgs::CameraInfoConstPtr> cameraInfos() const;  ///< null where none has come yet
+  std::vector<sensor_msgs::ImageConstPtr> masks() const;  ///< null where there is none, or none has come yet
   ViewSynchronizerStatistics statistics() const;
 
 private:
@@ -72,10 +74,12 @@ private:
   std::vector<image_transport::Subscriber> image_subscribers_;
   std::vector<ros::Subscriber> compressed_subscribers_;
   std::vector<ros::Subscriber> info_subscribers_;
+  std::vector<ros::Subscriber> mask_subscribers_;
 
   mutable std::mutex mutex_;  ///< guards what follows
   Synchronizer synchronizer_;
   std::vector<sensor_msgs::CameraInfoConstPtr> infos_;
+  std::vector<sensor_msgs::ImageConstPtr> masks_;
   std::vector<std::chrono::steady_clock::time_point> heard_;  ///< when each view's last image came
   std::vector<bool> given_up_;
 };

@@ -22,6 +22,8 @@ constexpr double NO_TURN = 1e-9;
 /// Sine of the largest angle by which a P may turn its view: a misalignment, not another direction.
 constexpr double MAX_TURN = 0.09;
 
+constexpr double KNOWN = 255.0;
+
 cv::Matx33d planeMatrix(const sensor_msgs::CameraInfo& info)
 {
   return {info.P[FX], 0.0, info.P[CX], 0.0, info.P[FY], info.P[CY], 0.0, 0.0, 1.0};
@@ -63,6 +65,12 @@ ViewRectifier::ViewRectifier(const sensor_msgs::CameraInfo& info, bool raw, doub
   else
   {
     useProjection(info, view_name);
+  }
+  if (!map_.empty())
+  {
+    const cv::Size size(static_cast<int>(info.width), static_cast<int>(info.height));
+    const cv::Mat reached = knownAfterMap(cv::Mat(size, CV_8UC1, cv::Scalar(KNOWN)));
+    reached_ = cv::countNonZero(reached) < static_cast<int>(reached.total()) ? reached : cv::Mat();
   }
   rectified_.K = {
       rectified_.P[FX], 0.0, rectified_.P[CX], 0.0, rectified_.P[FY], rectified_.P[CY], 0.0, 0.0, 1.0};
@@ -162,6 +170,23 @@ void ViewRectifier::useProjection(const sensor_msgs::CameraInfo& info, const std
     }
   }
   cv::convertMaps(x, y, map_, interpolation_, CV_16SC2);
+}
+
+/// Known is what only known pixels are interpolated of.
+cv::Mat ViewRectifier::knownAfterMap(const cv::Mat& mask) const
+{
+  cv::Mat share;
+  cv::remap(mask, share, map_, interpolation_, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0.0));
+  return share == KNOWN;
+}
+
+cv::Mat ViewRectifier::applyToMask(const cv::Mat& mask) const
+{
+  if (map_.empty())
+  {
+    return mask;
+  }
+  return mask.empty() ? reached_ : knownAfterMap(mask);
 }
 
 cv::Mat ViewRectifier::apply(const cv::Mat& image) const

@@ -35,13 +35,19 @@ public:
   /// @return the image itself where nothing is to be done. What lies outside repeats the border.
   cv::Mat apply(const cv::Mat& image) const;
 
+  /// The mask (View::mask) of the rectified image, for that of the image: masked is also what lies outside of
+  /// the image. Empty if nothing is masked. @param mask empty, or CV_8UC1 in the size of the image, 0 or 255
+  cv::Mat applyToMask(const cv::Mat& mask) const;
+
 private:
+  cv::Mat knownAfterMap(const cv::Mat& mask) const;
   void useRaw(const sensor_msgs::CameraInfo& info, const std::string& view_name);
   void useProjection(const sensor_msgs::CameraInfo& info, const std::string& view_name);
 
   sensor_msgs::CameraInfo rectified_;
   cv::Mat map_;            ///< CV_16SC2; empty: the image is what it should be
   cv::Mat interpolation_;  ///< CV_16UC1
+  cv::Mat reached_;        ///< mask of what the map finds in the image; empty: everything
 };
 
 }  // namespace light_field_depth

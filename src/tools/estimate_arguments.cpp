@@ -51,6 +51,9 @@ void declare(CLI::App& app, EstimateArguments& arguments)
          "FIRST:LAST frames of a sequence, or all; each has its results in a folder of its name, and helps "
          "the next one")
       ->excludes("--frame");
+  app.add_flag(
+      "--mask-black", arguments.mask_black,
+      "what is black up to the border of a view (unfilled by rectification, beyond a lens) shows nothing");
   app.add_flag("--dense", arguments.dense, "also write the extra dense cloud of all views");
   app.add_flag("--view-maps", arguments.view_maps,
                "also write the map of every view to OUTPUT/view_maps: disparity, confidence, and what each "
@@ -135,6 +138,7 @@ DatasetOptions makeDatasetOptions(const EstimateArguments& arguments)
 {
   DatasetOptions options;
   options.threads = arguments.threads;
+  options.mask_black = arguments.mask_black;
   if (!arguments.reference.empty())
   {
     options.reference = GridPosition{arguments.reference[0], arguments.reference[1]};

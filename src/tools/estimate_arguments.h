@@ -30,6 +30,7 @@ struct EstimateArguments
   std::string tiles;
   std::string frame;
   std::string frames;
+  bool mask_black = false;
   bool dense = false;
   bool view_maps = false;
   int threads = 0;

@@ -133,5 +133,31 @@ TEST(ImageFiles, RefusesDevicesInTheViewsPlace)
                    {"00_00.png", "device"}));
 }
 
+TEST(ImageFiles, TheAlphaOfAPngIsTheMaskOfAView)
+{
+  const TemporaryFolder folder;
+  cv::Mat image(20, 24, CV_8UC4, cv::Scalar(50, 100, 200, 255));
+  image.colRange(0, 3).setTo(cv::Scalar(0, 0, 0, 0));
+  ASSERT_TRUE(cv::imwrite((folder / "view_00_00.png").string(), image));
+  ASSERT_TRUE(cv::imwrite((folder / "view_00_01.png").string(), cv::Mat(20, 24, CV_8UC3, ORANGE)));
+  const LightField light_field = readDataset(folder.path()).light_field;
+  ASSERT_EQ(light_field.views.size(), 2U);
+  EXPECT_EQ(cv::countNonZero(light_field.views[0].mask), 21 * 20);
+  EXPECT_TRUE(light_field.views[1].mask.empty());
+}
+
+TEST(ImageFiles, BlackBordersAreMaskedOnRequest)
+{
+  const TemporaryFolder folder;
+  cv::Mat image(20, 24, CV_8UC3, ORANGE);
+  image.colRange(0, 3).setTo(cv::Scalar(0, 0, 0));
+  ASSERT_TRUE(cv::imwrite((folder / "view_00_00.png").string(), image));
+  ASSERT_TRUE(cv::imwrite((folder / "view_00_01.png").string(), image));
+  DatasetOptions options;
+  EXPECT_TRUE(readDataset(folder.path(), options).light_field.views[1].mask.empty());
+  options.mask_black = true;
+  EXPECT_EQ(cv::countNonZero(readDataset(folder.path(), options).light_field.views[1].mask), 20 * 20);
+}
+
 }  // namespace
 }  // namespace light_field_depth

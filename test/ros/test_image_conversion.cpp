@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "expect_sentence.h"
 
@@ -213,6 +214,43 @@ TEST(ImageConversion, NamesViewAndFieldOfWhatCannotBeUsed)
   sensor_msgs::Image huge = good;
   huge.height = 4000000000U;
   expectSentence([&] { imageFromMessage(huge, "View (1, 2)"); }, {"View (1, 2)", "4000000000"});
+}
+
+TEST(ImageConversion, AlphaIsTheMask)
+{
+  cv::Mat image = pattern(CV_8UC4);
+  image.forEach<cv::Vec4b>([](cv::Vec4b& pixel, const int* at) { pixel[3] = at[1] < 4 ? 0 : 255; });
+  for (const bool compressed : {false, true})
+  {
+    cv::Mat mask;
+    cv::Mat converted;
+    if (compressed)
+    {
+      sensor_msgs::CompressedImage png;
+      cv::imencode(".png", image, png.data);
+      converted = imageFromMessage(png, "View", &mask);
+    }
+    else
+    {
+      converted = imageFromMessage(message(encodings::BGRA8, image), "View", &mask);
+    }
+    EXPECT_EQ(converted.type(), CV_8UC3);
+    ASSERT_EQ(mask.size(), image.size());
+    EXPECT_EQ(cv::countNonZero(mask), (image.cols - 4) * image.rows);
+    EXPECT_EQ(cv::countNonZero(mask.colRange(0, 4)), 0);
+  }
+  cv::Mat mask(3, 3, CV_8UC1);
+  imageFromMessage(message(encodings::BGR8, pattern(CV_8UC3)), "View", &mask);
+  EXPECT_TRUE(mask.empty());
+}
+
+TEST(ImageConversion, MasksAreImagesOfAnyEncoding)
+{
+  cv::Mat image = cv::Mat::zeros(20, 30, CV_8UC1);
+  image.row(2).setTo(1);
+  const cv::Mat mask = maskFromMessage(message(encodings::MONO8, image), "View");
+  EXPECT_EQ(cv::countNonZero(mask), 30);
+  expectSentence([] { maskFromMessage(sensor_msgs::Image(), "View, mask"); }, {"View, mask", "encoding"});
 }
 
 }  // namespace

@@ -169,5 +169,19 @@ TEST(CloudMessages, AreThinnedToWhatRosTransports)
   EXPECT_EQ(thinningOfDenseCloud(62500001), 2U);
 }
 
+TEST(DisparityMessage, TheValidWindowBoundsWhatIsNotMasked)
+{
+  DisparityEstimate masked = estimate();
+  EXPECT_EQ(disparityMessage(header(), masked, calibration(), 0.0F, false)->valid_window.width, 3U);
+  masked.disparity.col(0).setTo(std::nanf(""));
+  const auto message = disparityMessage(header(), masked, calibration(), 0.0F, false);
+  EXPECT_EQ(message->valid_window.x_offset, 1U);
+  EXPECT_EQ(message->valid_window.width, 2U);
+  EXPECT_EQ(message->valid_window.height, 2U);
+  EXPECT_LT(value(message->image, 0, 0), message->min_disparity);
+  const auto colours = disparityColorMessage(header(), masked);
+  EXPECT_EQ(colours->data[0] + colours->data[1] + colours->data[2], 0) << "black";
+}
+
 }  // namespace
 }  // namespace light_field_depth

@@ -130,5 +130,19 @@ TEST(ViewArray, IsTheCrossByDefault)
   EXPECT_EQ(array.views[array.reference].image, "view_4_4/image_rect_color");
 }
 
+TEST(ViewArray, ViewsMayHaveMasks)
+{
+  const ViewArray pattern =
+      parse("{rows: 1, columns: 2, mask_topic: 'm_{column}', mask_file: '/a/{row}_{column}.png'}");
+  EXPECT_EQ(pattern.views[1].mask, "m_1");
+  EXPECT_EQ(pattern.views[1].mask_file, "/a/0_1.png");
+  const ViewArray list = parse(
+      "{views: [{row: 0, column: 0, image: a, camera_info: ai, mask: am}, {row: 0, column: 1, image: b, "
+      "camera_info: bi}]}");
+  EXPECT_EQ(list.views[0].mask, "am");
+  EXPECT_TRUE(list.views[1].mask.empty());
+  expectSentence([] { parse("{rows: 1, columns: 2, mask_topic: '1_{column}'}"); }, {"(0, 0)", "1_0"});
+}
+
 }  // namespace
 }  // namespace light_field_depth

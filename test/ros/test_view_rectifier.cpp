@@ -190,5 +190,23 @@ TEST(ViewRectifier, RefusesWhatItCannotBringOntoThePlane)
   expectSentence([&] { ViewRectifier(info, false, 150.0, "View (1, 2)"); }, {"P[8]", "one plane"});
 }
 
+TEST(ViewRectifier, MasksWhatTheImageDoesNotReach)
+{
+  sensor_msgs::CameraInfo info = camera();
+  const cv::Mat known(SIZE, CV_8UC1, cv::Scalar(255));
+  EXPECT_TRUE(ViewRectifier(info, true, 150.0, "View").applyToMask({}).empty()) << "nothing is moved";
+  // A plane's camera whose middle is 10 px further to the right shows 10 columns that the image does not
+  // have.
+  info.P[2] += 10.0;
+  const ViewRectifier moved(info, true, 150.0, "View");
+  const cv::Mat mask = moved.applyToMask({});
+  ASSERT_EQ(mask.size(), SIZE);
+  EXPECT_EQ(cv::countNonZero(mask.colRange(0, 10)), 0);
+  EXPECT_EQ(cv::countNonZero(mask), (SIZE.width - 10) * SIZE.height);
+  cv::Mat partly = known.clone();
+  partly.colRange(0, 5).setTo(0);
+  EXPECT_EQ(cv::countNonZero(moved.applyToMask(partly)), (SIZE.width - 15) * SIZE.height);
+}
+
 }  // namespace
 }  // namespace light_field_depth

@@ -152,7 +152,8 @@ void ArrayFixture::TearDown()
   spinner_->stop();
 }
 
-void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns& patterns, ResultSaver saver)
+void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns& patterns, ResultSaver saver,
+                             const std::string& mask_topic)
 {
   XmlRpc::XmlRpcValue array;
   for (std::size_t i = 0; i < light_field.views.size(); ++i)
@@ -163,6 +164,10 @@ void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns&
     view["column"] = grid.column;
     view["image"] = topicFromPattern(patterns.image, grid);
     view["camera_info"] = topicFromPattern(patterns.camera_info, grid);
+    if (!mask_topic.empty())
+    {
+      view["mask"] = topicFromPattern(mask_topic, grid);
+    }
   }
   node_space_->setParam("array", array);
   node_ = std::make_unique<DepthNode>(*array_space_, *node_space_, std::move(saver));

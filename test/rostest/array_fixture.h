@@ -109,9 +109,10 @@ protected:
   void SetUp() override;
   void TearDown() override;
 
-  /// Starts the node on an array: the parameter `array` lists the given views.
+  /// Starts the node on an array: the parameter `array` lists the given views. @param mask_topic a pattern;
+  /// empty: none
   void startNode(const LightField& light_field, const TopicPatterns& patterns = {},
-                 ResultSaver saver = nullptr);
+                 ResultSaver saver = nullptr, const std::string& mask_topic = "");
 
   template <class Value>
   void setParameter(const std::string& name, const Value& value)

@@ -118,5 +118,74 @@ TEST_F(ImageKindsTest, RawImagesAreRectifiedAndReduced)
   EXPECT_EQ(info.newest()->D[0], 0.0);
 }
 
+/// The share of a part of a disparity that is invalid.
+double invalidShare(const stereo_msgs::DisparityImage& disparity, int first_column, int end_column)
+{
+  const cv::Mat part = pixelsOf(disparity).colRange(first_column, end_column);
+  return static_cast<double>(cv::countNonZero(part < disparity.min_disparity)) /
+         static_cast<double>(part.total());
+}
+
+TEST_F(ImageKindsTest, WhatIsMaskedIsInvalidWhereverTheMaskComesFrom)
+{
+  const cv::Size size(128, 96);
+  constexpr int MASKED = 12;
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), size);
+  for (const std::string source : {"black", "topic", "alpha"})
+  {
+    SCOPED_TRACE(source);
+    ArrayPublisher array(*array_space_, scene.light_field);
+    std::vector<ros::Publisher> masks;
+    TopicPatterns patterns;
+    for (std::size_t view = 0; view < 3; ++view)
+    {
+      cv::Mat image = pixelsOf(array.image(view));
+      cv::Mat mask(size, CV_8UC1, cv::Scalar(255));
+      mask.colRange(0, MASKED).setTo(0);
+      image.setTo(cv::Scalar(), mask == 0);
+      std::string encoding = "bgr8";
+      if (source == "alpha")
+      {
+        cv::merge(std::vector<cv::Mat>{image, mask}, image);
+        encoding = "bgra8";
+      }
+      array.image(view) = *cv_bridge::CvImage(array.image(view).header, encoding, image).toImageMsg();
+      masks.push_back(
+          array_space_->advertise<sensor_msgs::Image>("view_0_" + std::to_string(view) + "/mask", 1, true));
+      masks.back().publish(cv_bridge::CvImage({}, "mono8", mask).toImageMsg());
+    }
+    setParameter("mask_black", source == "black");
+    startNode(scene.light_field, patterns, nullptr, source == "topic" ? "view_{row}_{column}/mask" : "");
+    const DisparityListener disparity(*node_space_, "disparity");
+    const auto isMasked = [&]
+    { return disparity.count() > 0 && invalidShare(*disparity.newest(), 0, MASKED) == 1.0; };
+    ASSERT_TRUE(publishUntil(array, isMasked));
+    const stereo_msgs::DisparityImage& result = *disparity.newest();
+    EXPECT_LT(invalidShare(result, MASKED + 1, size.width), 0.1);
+    EXPECT_NEAR(result.valid_window.x_offset, MASKED, 1);
+    EXPECT_EQ(result.valid_window.x_offset + result.valid_window.width, 128U);
+    node_.reset();
+  }
+}
+
+TEST_F(ImageKindsTest, WhatRectificationCannotFillIsInvalid)
+{
+  const cv::Size size(128, 96);
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), size);
+  ArrayPublisher array(*array_space_, scene.light_field);
+  for (std::size_t view = 0; view < 3; ++view)
+  {
+    array.info(view).P[2] +=
+        10.0;  // the plane's camera looks 10 px further to the left than the image begins
+  }
+  setParameter("rectify", true);
+  startNode(scene.light_field);
+  const DisparityListener disparity(*node_space_, "disparity");
+  ASSERT_TRUE(publishUntil(array, [&] { return disparity.count() > 0; }));
+  EXPECT_EQ(invalidShare(*disparity.newest(), 0, 10), 1.0);
+  EXPECT_EQ(disparity.newest()->valid_window.x_offset, 10U);
+  EXPECT_EQ(disparity.newest()->valid_window.width, 118U);
+}
+
 }  // namespace
 }  // namespace light_field_depth::testing

@@ -93,7 +93,8 @@ struct DatasetOptions
   CameraOptions camera;  ///< wins over what the dataset states
   /// Which views to decode, chosen from the light field without images; all when empty.
   std::function<ViewSelection(const LightField& without_images)> selection;
-  int threads = 0;  ///< that decode images; 0 takes one per processor
+  bool mask_black = false;  ///< what is black up to the border of a view shows nothing of the scene
+  int threads = 0;          ///< that decode images; 0 takes one per processor
 };
 
 /// A light field read from a folder.

@@ -16,10 +16,12 @@ bool isImageFile(const std::filesystem::path& path);
 std::string imageFormatsText();
 
 /// Reads a whole image without changing its values: CV_8U, CV_16U, or CV_32F for linear floats, grey or BGR;
-/// an alpha channel is dropped, a palette and CMYK become BGR, and an orientation tag turns the image
+/// an alpha channel is left out, a palette and CMYK become BGR, and an orientation tag turns the image
 /// upright. Thread safe.
+/// @param mask becomes the mask that the alpha channel of a PNG makes (core/mask_sources.h); empty where
+/// there is none
 /// @throw InputError if the file cannot be read, is truncated or damaged, or has values of another kind
-cv::Mat readImage(const std::filesystem::path& path);
+cv::Mat readImage(const std::filesystem::path& path, cv::Mat* mask = nullptr);
 
 /// Writes an image in the format that the extension names; the file appears whole or not at all.
 /// @throw InputError if the file cannot be written

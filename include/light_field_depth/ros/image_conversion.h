@@ -17,15 +17,24 @@ namespace light_field_depth
 /// and yuv422_yuy2 into BGR; 16 bits of the other byte order.
 ///
 /// @param view_name begins the sentence of an error
+/// @param mask      becomes the mask of the view (View::mask) where the image has an alpha channel: 0 where
+/// alpha is 0;
+///                  empty where it has none, or one that is 0 everywhere, as drivers write that do not use it
 /// @throw InputError for an empty image, another encoding, or a step or an amount of data that does not fit
 /// the
 ///   size
-cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name);
+cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name,
+                         cv::Mat* mask = nullptr);
 
 /// The same of a JPEG or PNG, as image_transport's compressed topics have them. A Bayer pattern that its
 /// format names is demosaicked.
 /// @throw InputError for data that cannot be decoded
-cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std::string& view_name);
+cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std::string& view_name,
+                         cv::Mat* mask = nullptr);
+
+/// A mask as a message: any encoding that imageFromMessage() takes, 0 where masked. @throw InputError as it
+/// does
+cv::Mat maskFromMessage(const sensor_msgs::Image& message, const std::string& view_name);
 
 }  // namespace light_field_depth
 

@@ -22,8 +22,8 @@ namespace light_field_depth
 /// The disparity of the reference view for any consumer of stereo disparities: the image holds d + d_inf, in
 /// pixels between adjacent views, so that Z = f T / value; min_disparity and max_disparity bound the valid
 /// values. Where the confidence is too low, or what is filled is not kept, or a point would lie at infinity
-/// or behind the camera, the value is min_disparity - 1. The valid window is the whole image. Without a
-/// calibration f and T are 0, and the image holds d.
+/// or behind the camera, the value is min_disparity - 1. The valid window bounds what the
+/// mask of the view leaves. Without a calibration f and T are 0, and the image holds d.
 stereo_msgs::DisparityImagePtr disparityMessage(const std_msgs::Header& header,
                                                 const DisparityEstimate& estimate,
                                                 const std::optional<Calibration>& calibration,

@@ -17,6 +17,8 @@ struct ViewTopics
   GridPosition grid;        ///< its place
   std::string image;        ///< topic
   std::string camera_info;  ///< topic
+  std::string mask;         ///< topic of its mask (View::mask), latched; empty: none
+  std::string mask_file;    ///< an image of its mask; empty: none
 };
 
 /// The views of an array and their topics.
@@ -42,13 +44,15 @@ std::string topicFromPattern(const std::string& pattern, const GridPosition& pos
 ///   columns: 9
 ///   image_topic: view_{row}_{column}/image_rect_color       (the default)
 ///   camera_info_topic: view_{row}_{column}/camera_info      (the default)
+///   mask_topic: view_{row}_{column}/mask                    (none by default)
+///   mask_file: /folder/mask_{row}_{column}.png              (none by default)
 ///   reference: [4, 4]                                       (the view nearest the middle by default)
 ///
 /// where lines go through the reference view, or
 ///
 ///   views:
 ///     - {row: 0, column: 0, image: left/image_rect, camera_info: left/camera_info}
-///     - ...
+///     - ...                                                 (also with mask: a topic, mask_file: a file)
 ///   reference: [0, 0]
 ///
 /// @throw InputError that names the field, its value and the remedy
