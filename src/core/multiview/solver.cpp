@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/multiview/maps/confidence.h"
-#include "core/multiview/refine/cell_sums.h"
+#include "core/multiview/maps/filled_regions.h"
 
 namespace light_field_depth::multiview
 {
@@ -14,8 +14,6 @@ namespace
 constexpr float REFINEMENT_REACH_PX = 1.0F;
 /// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;
-/// A pixel counts as filled where less than half of its data is above the noise.
-constexpr float FILLED_BELOW_SHARE = 0.5F;
 
 /// Bytes hold labels plus VISIBILITY_BIAS; below MAX_VISIBILITY_LABELS.
 constexpr int MAX_LABELS = 240;
@@ -316,18 +314,7 @@ void Solver::linearize(const SolverSettings& settings, const LinearizationSettin
 
 cv::Mat Solver::filled() const
 {
-  const cv::Mat& share = discount_.share();
-  cv::Mat filled(disparity_.size(), CV_8UC1);
-  for (int y = 0; y < filled.rows; ++y)
-  {
-    const auto* const cells = share.ptr<float>(y / CELL_PX);
-    auto* const row = filled.ptr<std::uint8_t>(y);
-    for (int x = 0; x < filled.cols; ++x)
-    {
-      row[x] = cells[x / CELL_PX] < FILLED_BELOW_SHARE ? 255 : 0;
-    }
-  }
-  return filled;
+  return findFilled(discount_.share(), disparity_);
 }
 
 void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
