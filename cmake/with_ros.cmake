@@ -1,7 +1,7 @@
 # A catkin package: messages, run-time parameters, package configuration, and what is installed besides the targets.
 find_package(catkin REQUIRED COMPONENTS
-  cv_bridge diagnostic_updater dynamic_reconfigure geometry_msgs image_geometry image_transport message_generation nodelet
-  pcl_conversions pcl_ros pluginlib rosbag roscpp sensor_msgs std_msgs std_srvs stereo_msgs tf2_ros)
+  camera_calibration_parsers cv_bridge diagnostic_updater dynamic_reconfigure geometry_msgs image_geometry image_transport
+  message_generation nodelet pcl_conversions pcl_ros pluginlib rosbag roscpp roslib sensor_msgs std_msgs std_srvs stereo_msgs tf2_ros)
 
 find_package(OpenCV REQUIRED COMPONENTS core)  # all that the public headers need
 

@@ -85,35 +85,33 @@ std::string percent(double part)
   return text.str();
 }
 
-void checkPlane(const fs::path& folder, const std::vector<PosedImage>& images, const Plane& plane)
+/// @throw InputError if a camera looks elsewhere or stands too far from the plane
+void checkPlane(const fs::path& source, const std::vector<PosedImage>& images, const CommonPlane& plane)
 {
-  double width = 0.0;
-  double off_plane = 0.0;
   const cv::Vec3d normal = column(plane.rotation, 2);
-  for (const PosedImage& image : images)
+  double off_plane = 0.0;
+  for (std::size_t i = 0; i < images.size(); ++i)
   {
-    const cv::Vec3d d = image.centre - plane.middle;
-    off_plane = std::max(off_plane, std::abs(d.dot(normal)));
-    width = std::max(width, 2.0 * cv::norm(d - normal * d.dot(normal)));
-    const double angle = angleDeg(column(image.rotation, 2), normal);
+    off_plane = std::max(off_plane, std::abs(plane.off_plane[i]));
+    const double angle = angleDeg(column(images[i].rotation, 2), normal);
     if (angle > MAX_ANGLE_DEG)
     {
-      throw InputError("The camera of '" + image.path.filename().string() + "' looks " +
+      throw InputError("The camera of '" + images[i].path.filename().string() + "' looks " +
                        std::to_string(std::lround(angle)) +
-                       " degrees away from the normal of the cameras' plane in '" + folder.string() +
+                       " degrees away from the normal of the cameras' plane in '" + source.string() +
                        "'; a light field needs cameras that look alike.");
     }
   }
-  if (!(width > 0.0))
+  if (!(plane.width > 0.0))
   {
-    throw InputError("All cameras in '" + folder.string() +
+    throw InputError("All cameras in '" + source.string() +
                      "' stand at one place; disparity needs a baseline.");
   }
-  if (off_plane > MAX_OFF_PLANE * width)
+  if (off_plane > MAX_OFF_PLANE * plane.width)
   {
-    throw InputError("The cameras in '" + folder.string() + "' stand up to " + percent(off_plane / width) +
-                     " of the rig's width away from a common plane (" + percent(MAX_OFF_PLANE) +
-                     " are allowed); only planar rigs are light fields.");
+    throw InputError("The cameras in '" + source.string() + "' stand up to " +
+                     percent(off_plane / plane.width) + " of the rig's width away from a common plane (" +
+                     percent(MAX_OFF_PLANE) + " are allowed); only planar rigs are light fields.");
   }
 }
 
@@ -173,17 +171,17 @@ bool movesPixels(const ViewWarp& warp)
   return farthest > MIN_WARP_PX || warp.source.size != warp.common.size;
 }
 
-double usualDistance(const std::vector<ViewFile>& views)
+double usualDistance(const std::vector<cv::Point2d>& positions)
 {
   std::vector<double> nearest;
-  for (const ViewFile& view : views)
+  for (const cv::Point2d& position : positions)
   {
     double least = std::numeric_limits<double>::infinity();
-    for (const ViewFile& other : views)
+    for (const cv::Point2d& other : positions)
     {
-      if (&other != &view)
+      if (&other != &position)
       {
-        least = std::min(least, cv::norm(*other.position - *view.position));
+        least = std::min(least, cv::norm(other - position));
       }
     }
     nearest.push_back(least);
@@ -208,35 +206,6 @@ std::vector<int> lineNumbers(const std::vector<double>& values, double same)
     numbers[order[i]] = numbers[order[i - 1]] + (values[order[i]] - values[order[i - 1]] > same ? 1 : 0);
   }
   return numbers;
-}
-
-/// Rows and columns from positions: those of a grid, or each view has a column of its own.
-void numberViews(std::vector<ViewFile>& views)
-{
-  std::vector<double> x;
-  std::vector<double> y;
-  for (const ViewFile& view : views)
-  {
-    x.push_back(view.position->x);
-    y.push_back(view.position->y);
-  }
-  const double same = SAME_LINE * usualDistance(views);
-  const std::vector<int> rows = lineNumbers(y, same);
-  std::vector<int> columns = lineNumbers(x, same);
-  std::vector<std::pair<int, int>> places;
-  for (std::size_t i = 0; i < views.size(); ++i)
-  {
-    places.emplace_back(rows[i], columns[i]);
-  }
-  std::sort(places.begin(), places.end());
-  if (std::adjacent_find(places.begin(), places.end()) != places.end())
-  {
-    columns = lineNumbers(x, -1.0);
-  }
-  for (std::size_t i = 0; i < views.size(); ++i)
-  {
-    views[i].number = {rows[i], columns[i]};
-  }
 }
 
 /// Where each pixel of the common camera is in the image.
@@ -286,6 +255,55 @@ fs::path findFrame(const fs::path& folder, const std::string& name)
   return {};
 }
 
+CommonPlane fitCommonPlane(const fs::path& source, const std::vector<PosedImage>& images)
+{
+  const Plane fitted = fitPlane(images);
+  CommonPlane plane;
+  plane.rotation = fitted.rotation;
+  plane.common = commonCamera(images, fitted);
+  for (const PosedImage& image : images)
+  {
+    const cv::Vec3d d = image.centre - fitted.middle;
+    const cv::Vec3d position = fitted.rotation.t() * d;
+    plane.positions.emplace_back(position[0], position[1]);
+    const cv::Vec3d normal = column(fitted.rotation, 2);
+    plane.off_plane.push_back(d.dot(normal));
+    plane.width = std::max(plane.width, 2.0 * cv::norm(d - normal * d.dot(normal)));
+  }
+  checkPlane(source, images, plane);
+  return plane;
+}
+
+std::vector<GridPosition> numberCameras(const CommonPlane& plane)
+{
+  std::vector<double> x;
+  std::vector<double> y;
+  for (const cv::Point2d& position : plane.positions)
+  {
+    x.push_back(position.x);
+    y.push_back(position.y);
+  }
+  const double same = SAME_LINE * usualDistance(plane.positions);
+  const std::vector<int> rows = lineNumbers(y, same);
+  std::vector<int> columns = lineNumbers(x, same);
+  std::vector<std::pair<int, int>> places;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    places.emplace_back(rows[i], columns[i]);
+  }
+  std::sort(places.begin(), places.end());
+  if (std::adjacent_find(places.begin(), places.end()) != places.end())
+  {
+    columns = lineNumbers(x, -1.0);
+  }
+  std::vector<GridPosition> numbers;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    numbers.push_back({rows[i], columns[i]});
+  }
+  return numbers;
+}
+
 FolderDescription describeRig(const fs::path& folder, const std::vector<PosedImage>& images, double unit_m)
 {
   if (images.size() < 2)
@@ -293,16 +311,15 @@ FolderDescription describeRig(const fs::path& folder, const std::vector<PosedIma
     throw InputError("Of the cameras that '" + folder.string() + "' describes, " +
                      std::to_string(images.size()) + " image(s) are there; disparity needs at least two.");
   }
-  const Plane plane = fitPlane(images);
-  checkPlane(folder, images, plane);
-  const Intrinsics common = commonCamera(images, plane);
+  const CommonPlane plane = fitCommonPlane(folder, images);
+  const std::vector<GridPosition> numbers = numberCameras(plane);
   FolderDescription description;
   std::size_t warped_views = 0;
-  for (const PosedImage& image : images)
+  for (std::size_t i = 0; i < images.size(); ++i)
   {
-    const cv::Vec3d position = plane.rotation.t() * (image.centre - plane.middle);
-    ViewFile view{image.path, {}, cv::Point2d(position[0], position[1])};
-    const ViewWarp warp{common, image.intrinsics, image.rotation.t() * plane.rotation};
+    const PosedImage& image = images[i];
+    ViewFile view{image.path, numbers[i], plane.positions[i]};
+    const ViewWarp warp{plane.common, image.intrinsics, image.rotation.t() * plane.rotation};
     if (movesPixels(warp))
     {
       view.warp = std::make_shared<const ViewWarp>(warp);
@@ -310,10 +327,9 @@ FolderDescription describeRig(const fs::path& folder, const std::vector<PosedIma
     }
     description.views.push_back(view);
   }
-  numberViews(description.views);
   CameraDescription camera;
-  camera.focal_length_px = common.fx;
-  camera.principal_point_px = cv::Point2d(common.cx, common.cy);
+  camera.focal_length_px = plane.common.fx;
+  camera.principal_point_px = cv::Point2d(plane.common.cx, plane.common.cy);
   description.camera = camera;
   description.position_unit_m = unit_m;
   if (warped_views > 0)

@@ -28,6 +28,23 @@ cv::Matx33d nearestRotation(const cv::Matx33d& matrix, const std::string& name);
 /// folder for images. Empty if there is none.
 std::filesystem::path findFrame(const std::filesystem::path& folder, const std::string& name);
 
+/// The plane of a rig, and its cameras in it.
+struct CommonPlane
+{
+  cv::Matx33d rotation;                ///< from the axes of the plane (z is its normal) to the world's
+  Intrinsics common;                   ///< of the camera that all are rectified to
+  std::vector<cv::Point2d> positions;  ///< of the cameras in the plane, from its middle
+  std::vector<double> off_plane;       ///< distance of each camera from the plane, along the normal
+  double width = 0.0;                  ///< of the rig; all lengths in the unit of the poses
+};
+
+/// @param source of the poses, for messages
+/// @throw InputError that says how far from a plane the cameras stand, or which one looks elsewhere
+CommonPlane fitCommonPlane(const std::filesystem::path& source, const std::vector<PosedImage>& images);
+
+/// Rows and columns from the positions: those of a grid, or each camera has a column of its own.
+std::vector<GridPosition> numberCameras(const CommonPlane& plane);
+
 /// The images of cameras on a common plane, warped to look along its normal with one focal length.
 /// @param unit_m metres of the positions' unit
 /// @throw InputError that says how far from a plane the cameras stand, or which one looks elsewhere

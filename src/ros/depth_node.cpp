@@ -126,7 +126,7 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
   {
     diagnostics_.warn(warning);
   }
-  queue_.setHeldBack(parameters_.use_camera_info);
+  queue_.setHeldBack(parameters_.use_camera_info && !input_.hasCameraInfos());
   {
     // A listener may come while the topics are being advertised; it waits here until all of them are.
     const std::lock_guard<std::mutex> lock(subscription_mutex_);

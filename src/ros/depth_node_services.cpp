@@ -27,8 +27,8 @@ bool DepthNode::Implementation::reset(std_srvs::Empty::Request& /*request*/,
   {
     input_.unsubscribe();
   }
-  queue_.setHeldBack(parameters_.use_camera_info);
   input_.forget();
+  queue_.setHeldBack(parameters_.use_camera_info && !input_.hasCameraInfos());
   queue_.clear();
   forget_frames_ = true;
   if (subscribed_ && !shutting_down_)

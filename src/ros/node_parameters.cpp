@@ -10,6 +10,7 @@
 #include <image_transport/image_transport.h>
 
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/ros/camera_info_url.h"
 #include "ros/parameter_check.h"
 
 namespace light_field_depth
@@ -149,6 +150,7 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   {
     parameters.array = viewArrayFromParameter(array);
   }
+  parameters.camera_infos = readCameraInfos(parameters.array);
   reader.read("use_camera_info", parameters.use_camera_info);
   parameters.calibration = readCalibration(reader);
   if (!parameters.use_camera_info)

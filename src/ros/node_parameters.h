@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <ros/node_handle.h>
+#include <sensor_msgs/CameraInfo.h>
 
 #include "light_field_depth/ros/calibration_from_camera_info.h"
 #include "light_field_depth/ros/view_array.h"
@@ -21,6 +22,9 @@ struct NodeParameters
 {
   /// `array`: the views and their topics.
   ViewArray array = defaultViewArray();
+
+  /// CameraInfos of the views whose `array` names a file; null for the others.
+  std::vector<sensor_msgs::CameraInfoConstPtr> camera_infos;
 
   /// `use_camera_info`: false takes the calibration from the parameters below alone.
   bool use_camera_info = true;

@@ -1,8 +1,12 @@
 #include "ros/settings.h"
 
+#include <ios>
+#include <map>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 
+#include <ros/console.h>
 #include <boost/any.hpp>
 
 #include "light_field_depth/core/error.h"
@@ -44,7 +48,51 @@ void assign(const boost::any& value, Field& field)
   }
 }
 
+/// A value of a setting as text.
+template <class Field>
+std::string textOf(const Field& field)
+{
+  if constexpr (std::is_enum_v<Field>)
+  {
+    return toString(field);
+  }
+  else
+  {
+    std::ostringstream text;
+    text << std::boolalpha << field;
+    return text.str();
+  }
+}
+
+std::map<std::string, std::string> numbersOf(const PipelineOptions& options)
+{
+  PipelineOptions numbers = options;
+  numbers.multiview = withPresetNumbers(options.multiview);
+  std::map<std::string, std::string> texts;
+  visitOptions(numbers,
+               [&texts](const std::string& name, const auto& field) { texts[name] = textOf(field); });
+  return texts;
+}
+
 }  // namespace
+
+std::string describePresetChange(const PipelineOptions& before, const PipelineOptions& after)
+{
+  if (before.multiview.preset == after.multiview.preset)
+  {
+    return "";
+  }
+  const std::map<std::string, std::string> old = numbersOf(before);
+  std::string changes;
+  for (const auto& [name, value] : numbersOf(after))
+  {
+    if (name != "multiview_preset" && old.at(name) != value)
+    {
+      changes += (changes.empty() ? ": " : ", ") + name + " " + value + " (was " + old.at(name) + ")";
+    }
+  }
+  return "The preset is now " + toString(after.multiview.preset) + changes + ".";
+}
 
 NodeSettings settingsFrom(const LightFieldDepthConfig& config)
 {
@@ -99,6 +147,11 @@ void SettingsServer::reconfigure(LightFieldDepthConfig& config)
   {
     auto settings = std::make_shared<const NodeSettings>(settingsFrom(config));
     config_ = config;
+    const std::string change = describePresetChange(snapshot()->pipeline, settings->pipeline);
+    if (!change.empty())
+    {
+      ROS_INFO_STREAM(change);
+    }
     const std::lock_guard<std::mutex> lock(mutex_);
     settings_ = std::move(settings);
   }

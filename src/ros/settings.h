@@ -26,6 +26,10 @@ struct NodeSettings
 /// @throw InputError with a sentence for each field that cannot be used
 NodeSettings settingsFrom(const LightFieldDepthConfig& config);
 
+/// Which numbers the preset of multiview has changed: "The preset is now fast: multiview_label_step_px 0.25
+/// (was 0.125), ...". Empty if the preset is the same.
+std::string describePresetChange(const PipelineOptions& before, const PipelineOptions& after);
+
 /// The settings as dynamic_reconfigure holds them: every frame takes one snapshot. What cannot be used is
 /// refused, and the values in force are reported back. Thread safe.
 class SettingsServer

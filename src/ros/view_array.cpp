@@ -161,6 +161,7 @@ struct Patterns
   std::string camera_info = DEFAULT_CAMERA_INFO_TOPIC;
   std::string mask;
   std::string mask_file;
+  std::string camera_info_url;
 };
 
 ViewArray patternArray(int rows, int columns, ViewSelection layout, const Patterns& patterns,
@@ -182,7 +183,8 @@ ViewArray patternArray(int rows, int columns, ViewSelection layout, const Patter
     array.views.push_back({view.grid, topicFromPattern(patterns.image, view.grid),
                            topicFromPattern(patterns.camera_info, view.grid),
                            topicFromPattern(patterns.mask, view.grid),
-                           topicFromPattern(patterns.mask_file, view.grid)});
+                           topicFromPattern(patterns.mask_file, view.grid),
+                           topicFromPattern(patterns.camera_info_url, view.grid)});
   }
   return array;
 }
@@ -194,7 +196,8 @@ ViewArray patternArrayFrom(StructReader& fields, const std::optional<GridPositio
   const ViewSelection layout = layoutFrom(fields.text("layout", "all"));
   const Patterns patterns{fields.text("image_topic", DEFAULT_IMAGE_TOPIC),
                           fields.text("camera_info_topic", DEFAULT_CAMERA_INFO_TOPIC),
-                          fields.text("mask_topic", ""), fields.text("mask_file", "")};
+                          fields.text("mask_topic", ""), fields.text("mask_file", ""),
+                          fields.text("camera_info_url", "")};
   return patternArray(rows, columns, layout, patterns, reference);
 }
 
@@ -209,7 +212,9 @@ ViewArray listedArrayFrom(const XmlRpcValue& list, const std::optional<GridPosit
     view.grid.row = fields.integer("row", -MAX_SIDE, MAX_SIDE);
     view.grid.column = fields.integer("column", -MAX_SIDE, MAX_SIDE);
     view.image = fields.text("image");
-    view.camera_info = fields.text("camera_info");
+    view.camera_info_url = fields.text("camera_info_url", "");
+    view.camera_info = view.camera_info_url.empty() ? fields.text("camera_info")
+                                                    : fields.text("camera_info", view.image + "/camera_info");
     view.mask = fields.text("mask", "");
     view.mask_file = fields.text("mask_file", "");
     fields.refuseUnknown();

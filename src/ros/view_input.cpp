@@ -31,9 +31,11 @@ ViewInput::ViewInput(const ros::NodeHandle& node_handle, const ros::NodeHandle& 
     : node_handle_(node_handle), private_node_handle_(private_node_handle), parameters_(parameters),
       quorum_(parameters.array, static_cast<std::size_t>(parameters.min_views)),
       on_frame_(std::move(on_frame)), on_calibrated_(std::move(on_calibrated)), image_transport_(node_handle),
-      synchronizer_(synchronizerOptions(parameters, quorum_)), infos_(parameters.array.views.size()),
+      synchronizer_(synchronizerOptions(parameters, quorum_)), infos_(parameters.camera_infos),
       masks_(parameters.array.views.size()), given_up_(parameters.array.views.size())
 {
+  infos_.resize(parameters.array.views.size());
+  parameters_.camera_infos = infos_;
 }
 
 ViewInput::~ViewInput()
@@ -78,7 +80,7 @@ void ViewInput::subscribeTo(std::size_t view)
         topics.image, queue_size, on_image, ros::VoidPtr(),
         image_transport::TransportHints(parameters_.image_transport, hints, private_node_handle_)));
   }
-  if (parameters_.use_camera_info)
+  if (parameters_.use_camera_info && parameters_.camera_infos[view] == nullptr)
   {
     const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> on_info =
         [this, view](const sensor_msgs::CameraInfoConstPtr& info) { cameraInfoCallback(view, info); };
@@ -129,7 +131,7 @@ void ViewInput::forget()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   synchronizer_.reset();
-  infos_.assign(infos_.size(), nullptr);
+  infos_ = parameters_.camera_infos;
 }
 
 std::vector<std::size_t> ViewInput::giveUpSilentViews(double seconds)
@@ -183,6 +185,12 @@ bool ViewInput::isCalibrated() const
     }
   }
   return true;
+}
+
+bool ViewInput::hasCameraInfos() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return isCalibrated();
 }
 
 void ViewInput::deliver(std::vector<Synchronizer::Set> sets)

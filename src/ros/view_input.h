@@ -43,12 +43,15 @@ public:
   /// Returns when no callback is running any more. What was incomplete is forgotten, CameraInfos are kept.
   void unsubscribe();
 
-  /// Drops incomplete sets and CameraInfos.
+  /// Drops incomplete sets and the CameraInfos of topics.
   void forget();
 
   /// Gives up, until their next message, the views from which no image has come for so long, if the others
   /// can stand for all. @return all views that are given up now
   std::vector<std::size_t> giveUpSilentViews(double seconds);
+
+  /// Whether every view that is not given up has a CameraInfo, from its topic or from its file.
+  bool hasCameraInfos() const;
 
   const ViewQuorum& quorum() const { return quorum_; }
   std::vector<sensor_msgs::CameraInfoConstPtr> cameraInfos() const;  ///< null where none has come yet

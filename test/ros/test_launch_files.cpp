@@ -31,6 +31,7 @@ TEST(LaunchFiles, AllLoad)
        {"array:=grid_3x3 rviz:=true method:=paper2017 views:=cross", "/light_field_depth/rviz"}},
       {"play.launch", {"input:=folder manager:=/other", "/light_field_player"}},
       {"replay.launch", {"bag:=file.bag loop:=true use_sim_time:=false", "/rosbag_play"}},
+      {"rectified_array.launch", {"rows:=1 columns:=5", "/rectify_view_0_4"}},
       {"demo.launch", {"bag:=file.bag", "/upright_frame_broadcaster"}},
   };
   std::size_t files = 0;

@@ -114,5 +114,20 @@ TEST(Settings, RefuseWhatThePipelineRefuses)
   expectSentence([&] { settingsFrom(config); }, {"min_confidence"});
 }
 
+TEST(Settings, APresetSaysWhatItChanges)
+{
+  PipelineOptions before;
+  PipelineOptions after;
+  EXPECT_EQ(describePresetChange(before, after), "");
+  after.multiview.preset = MultiviewPreset::Fast;
+  const std::string sentence = describePresetChange(before, after);
+  EXPECT_NE(sentence.find("The preset is now fast"), std::string::npos) << sentence;
+  const float label_step_px = withPresetNumbers(after.multiview).label_step_px;
+  EXPECT_NE(sentence.find("multiview_label_step_px " + std::to_string(label_step_px).substr(0, 3)),
+            std::string::npos)
+      << sentence;
+  EXPECT_NE(sentence.find("(was "), std::string::npos) << sentence;
+}
+
 }  // namespace
 }  // namespace light_field_depth

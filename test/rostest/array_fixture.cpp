@@ -153,7 +153,7 @@ void ArrayFixture::TearDown()
 }
 
 void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns& patterns, ResultSaver saver,
-                             const std::string& mask_topic)
+                             const std::map<std::string, std::string>& fields)
 {
   XmlRpc::XmlRpcValue array;
   for (std::size_t i = 0; i < light_field.views.size(); ++i)
@@ -164,9 +164,9 @@ void ArrayFixture::startNode(const LightField& light_field, const TopicPatterns&
     view["column"] = grid.column;
     view["image"] = topicFromPattern(patterns.image, grid);
     view["camera_info"] = topicFromPattern(patterns.camera_info, grid);
-    if (!mask_topic.empty())
+    for (const auto& [name, pattern] : fields)
     {
-      view["mask"] = topicFromPattern(mask_topic, grid);
+      view[name] = topicFromPattern(pattern, grid);
     }
   }
   node_space_->setParam("array", array);

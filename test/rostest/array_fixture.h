@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -109,10 +110,10 @@ protected:
   void SetUp() override;
   void TearDown() override;
 
-  /// Starts the node on an array: the parameter `array` lists the given views. @param mask_topic a pattern;
-  /// empty: none
+  /// Starts the node on an array: the parameter `array` lists the given views.
+  /// @param fields further ones of each view by their names, as patterns
   void startNode(const LightField& light_field, const TopicPatterns& patterns = {},
-                 ResultSaver saver = nullptr, const std::string& mask_topic = "");
+                 ResultSaver saver = nullptr, const std::map<std::string, std::string>& fields = {});
 
   template <class Value>
   void setParameter(const std::string& name, const Value& value)

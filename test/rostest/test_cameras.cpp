@@ -1,11 +1,15 @@
 // What the cameras' CameraInfo may say.
 
+#include <string>
+
+#include <camera_calibration_parsers/parse.h>
 #include <gtest/gtest.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Empty.h>
 #include <stereo_msgs/DisparityImage.h>
 
 #include "array_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace light_field_depth::testing
 {
@@ -168,6 +172,35 @@ TEST_F(CamerasTest, WhoseTopicsDoNotSayRectifiedAreWarnedAbout)
       [&] {
         return disparity.count() > 0 && diagnosed(diagnostics, {"View (0, 1)", "distortion", "rectified"});
       }));
+}
+
+TEST_F(CamerasTest, MayHaveTheirCalibrationInFiles)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), SMALL);
+  ArrayPublisher array(*array_space_, scene.light_field);
+  const TemporaryFolder folder;
+  for (std::size_t view = 0; view < 3; ++view)
+  {
+    ASSERT_TRUE(camera_calibration_parsers::writeCalibration(
+        (folder / ("view_0_" + std::to_string(view) + ".yaml")).string(), "view", array.info(view)));
+  }
+  startNode(scene.light_field, {}, nullptr,
+            {{"camera_info_url", "file://" + folder.path().string() + "/view_{row}_{column}.yaml"}});
+  const DisparityListener disparity(*node_space_, "disparity");
+  const auto images_until = [&](std::size_t count)
+  {
+    return waitFor(
+        [&]
+        {
+          array.publishImages(nextStamp(), EVERY_VIEW);
+          return waitFor([&] { return disparity.count() > count; }, std::chrono::milliseconds(50));
+        });
+  };
+  ASSERT_TRUE(images_until(0)) << "no CameraInfo is published";
+  EXPECT_NEAR(disparity.newest()->T, scene.light_field.calibration->baseline_m, 1e-6);
+  std_srvs::Empty call;
+  ASSERT_TRUE(ros::service::call(node_space_->resolveName("reset"), call));
+  EXPECT_TRUE(images_until(disparity.count())) << "a reset leaves the files";
 }
 
 }  // namespace

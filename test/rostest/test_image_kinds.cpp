@@ -155,7 +155,12 @@ TEST_F(ImageKindsTest, WhatIsMaskedIsInvalidWhereverTheMaskComesFrom)
       masks.back().publish(cv_bridge::CvImage({}, "mono8", mask).toImageMsg());
     }
     setParameter("mask_black", source == "black");
-    startNode(scene.light_field, patterns, nullptr, source == "topic" ? "view_{row}_{column}/mask" : "");
+    std::map<std::string, std::string> fields;
+    if (source == "topic")
+    {
+      fields["mask"] = "view_{row}_{column}/mask";
+    }
+    startNode(scene.light_field, patterns, nullptr, fields);
     const DisparityListener disparity(*node_space_, "disparity");
     const auto isMasked = [&]
     { return disparity.count() > 0 && invalidShare(*disparity.newest(), 0, MASKED) == 1.0; };
@@ -185,6 +190,43 @@ TEST_F(ImageKindsTest, WhatRectificationCannotFillIsInvalid)
   EXPECT_EQ(invalidShare(*disparity.newest(), 0, 10), 1.0);
   EXPECT_EQ(disparity.newest()->valid_window.x_offset, 10U);
   EXPECT_EQ(disparity.newest()->valid_window.width, 118U);
+}
+
+/// Grey levels of 8 bits as levels of another range.
+cv::Mat asSixteenBits(const cv::Mat& bgr, double darkest, double brightest)
+{
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  cv::Mat deep;
+  grey.convertTo(deep, CV_16U, (brightest - darkest) / 255.0, darkest);
+  return deep;
+}
+
+TEST_F(ImageKindsTest, AThermalRangeAndAHotPixelCostNothing)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), {96, 72});
+  for (const bool is_thermal : {true, false})
+  {
+    SCOPED_TRACE(is_thermal ? "51241..52181" : "10 bits, one pixel at 65535");
+    ArrayPublisher array(*array_space_, scene.light_field);
+    for (std::size_t view = 0; view < 3; ++view)
+    {
+      sensor_msgs::Image& image = array.image(view);
+      cv::Mat deep = is_thermal ? asSixteenBits(pixelsOf(image), 51241.0, 52181.0)
+                                : asSixteenBits(pixelsOf(image), 0.0, 1023.0);
+      if (!is_thermal && view == 1)
+      {
+        deep.at<std::uint16_t>(20, 30) = 65535;
+      }
+      image = *cv_bridge::CvImage(image.header, "mono16", deep).toImageMsg();
+    }
+    startNode(scene.light_field);
+    const DisparityListener disparity(*node_space_, "disparity");
+    ASSERT_TRUE(publishUntil(array, [&] { return disparity.count() > 0; }));
+    const auto offset_px = static_cast<float>(scene.light_field.calibration->disparity_offset_px);
+    EXPECT_LT(badPercentage(pixelsOf(*disparity.newest()) - offset_px, scene.truth, 0.5), 5.0);
+    node_.reset();
+  }
 }
 
 }  // namespace

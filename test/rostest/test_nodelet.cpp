@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -6,6 +7,7 @@
 #include <nodelet/NodeletList.h>
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>
+#include <sensor_msgs/Image.h>
 
 #include "array_fixture.h"
 #include "light_field_depth/LightFieldDepthStats.h"
@@ -18,11 +20,11 @@ namespace
 {
 const char* const NODELET = "light_field_depth/DepthNodelet";
 
-bool load(const std::string& name)
+bool load(const std::string& name, const std::string& type = NODELET)
 {
   nodelet::NodeletLoad call;
   call.request.name = name;
-  call.request.type = NODELET;
+  call.request.type = type;
   return ros::service::call("/manager/load_nodelet", call) && call.response.success != 0;
 }
 
@@ -108,6 +110,35 @@ TEST_F(NodeletTest, LeavesTheManagerUpWhenItsParametersCannotBeUsed)
   ASSERT_TRUE(load("/depth")) << "and takes other nodelets";
   EXPECT_TRUE(has("/depth"));
   EXPECT_TRUE(unload("/depth"));
+}
+
+TEST_F(NodeletTest, OneImageIsSplitIntoTheTopicsOfTheViews)
+{
+  ASSERT_TRUE(load("/splitter", "light_field_depth/TileSplitterNodelet"));
+  ros::Publisher publisher = root_.advertise<sensor_msgs::Image>("image", 1);
+  {
+    const Listener<sensor_msgs::Image> first(root_, "tile_0_0");
+    const Listener<sensor_msgs::Image> last(root_, "tile_1_2");
+    ASSERT_TRUE(waitFor([&] { return publisher.getNumSubscribers() > 0; }));
+    sensor_msgs::Image image;
+    image.header.stamp = ros::Time(7.0);
+    image.encoding = "mono8";
+    image.width = image.step = 48;
+    image.height = 32;
+    image.data.resize(48 * 32);
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+    {
+      image.data[i] = static_cast<std::uint8_t>(i % 251);
+    }
+    publisher.publish(image);
+    ASSERT_TRUE(waitFor([&] { return first.count() > 0 && last.count() > 0; }));
+    EXPECT_EQ(last.newest()->header.stamp, image.header.stamp);
+    EXPECT_EQ(last.newest()->width, 16U);
+    EXPECT_EQ(last.newest()->height, 16U);
+    EXPECT_EQ(last.newest()->data[0], image.data[16 * 48 + 32]);
+  }
+  EXPECT_TRUE(waitFor([&] { return publisher.getNumSubscribers() == 0; })) << "nobody listens any more";
+  EXPECT_TRUE(unload("/splitter"));
 }
 
 }  // namespace

@@ -14,11 +14,13 @@ namespace light_field_depth
 /// Where a view comes from.
 struct ViewTopics
 {
-  GridPosition grid;        ///< its place
-  std::string image;        ///< topic
-  std::string camera_info;  ///< topic
-  std::string mask;         ///< topic of its mask (View::mask), latched; empty: none
-  std::string mask_file;    ///< an image of its mask; empty: none
+  GridPosition grid;           ///< its place
+  std::string image;           ///< topic
+  std::string camera_info;     ///< topic; not listened to where there is a camera_info_url
+  std::string mask = {};       ///< topic of its mask (View::mask), latched; empty: none
+  std::string mask_file = {};  ///< an image of its mask; empty: none
+  std::string camera_info_url =
+      {};  ///< of its calibration file, as camera_info_manager has them; empty: none
 };
 
 /// The views of an array and their topics.
@@ -44,6 +46,7 @@ std::string topicFromPattern(const std::string& pattern, const GridPosition& pos
 ///   columns: 9
 ///   image_topic: view_{row}_{column}/image_rect_color       (the default)
 ///   camera_info_topic: view_{row}_{column}/camera_info      (the default)
+///   camera_info_url: file:///folder/view_{row}_{column}.yaml   (none by default; instead of the topic)
 ///   mask_topic: view_{row}_{column}/mask                    (none by default)
 ///   mask_file: /folder/mask_{row}_{column}.png              (none by default)
 ///   reference: [4, 4]                                       (the view nearest the middle by default)
@@ -52,7 +55,8 @@ std::string topicFromPattern(const std::string& pattern, const GridPosition& pos
 ///
 ///   views:
 ///     - {row: 0, column: 0, image: left/image_rect, camera_info: left/camera_info}
-///     - ...                                                 (also with mask: a topic, mask_file: a file)
+///     - ...                                                 (also with camera_info_url, mask: a topic,
+///     mask_file)
 ///   reference: [0, 0]
 ///
 /// @throw InputError that names the field, its value and the remedy
