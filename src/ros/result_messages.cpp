@@ -104,9 +104,10 @@ ColoredPoint* shapeCloud(const std_msgs::Header& header, std::uint32_t width, st
   cloud.header = header;
   cloud.width = width;
   cloud.height = height;
-  // "rgb" is a float by name only; its bytes are b, g, r, 0.
-  cloud.fields.resize(4);
-  const std::array<const char*, 4> names = {"x", "y", "z", "rgb"};
+  // "rgb" is a float by name only; its bytes are b, g, r, and one that means nothing, which holds the
+  // confidence.
+  cloud.fields.resize(5);
+  const std::array<const char*, 5> names = {"x", "y", "z", "rgb", "confidence"};
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     cloud.fields[i].name = names[i];
@@ -250,7 +251,7 @@ void appendDensePoints(const DensePoint* points, std::size_t count, std::size_t 
   for (std::size_t i = 0; i < kept; ++i)
   {
     const DensePoint& point = points[i * every_nth];
-    *target++ = {point.x, point.y, point.z, point.b, point.g, point.r, 0};
+    *target++ = {point.x, point.y, point.z, point.b, point.g, point.r, 0, point.confidence};
   }
   cloud.width += static_cast<std::uint32_t>(kept);
   cloud.row_step = cloud.point_step * cloud.width;

@@ -110,7 +110,7 @@ TEST(DisparityColorMessage, GoesFromBlueToRed)
 std::vector<ColoredPoint> points()
 {
   constexpr float NaN = std::numeric_limits<float>::quiet_NaN();
-  return {{1.0F, 2.0F, 3.0F, 10, 20, 30, 0}, {NaN, NaN, NaN, 0, 0, 0, 0}};
+  return {{1.0F, 2.0F, 3.0F, 10, 20, 30, 0, 0.5F}, {NaN, NaN, NaN, 0, 0, 0, 0, 0.0F}};
 }
 
 TEST(CloudMessages, AreWhatPclReads)
@@ -121,10 +121,12 @@ TEST(CloudMessages, AreWhatPclReads)
   const std::vector<ColoredPoint> written = points();
   std::copy(written.begin(), written.end(), shapeOrganizedCloud(header(), {2, 1}, message));
   EXPECT_EQ(message.header.frame_id, header().frame_id);
-  EXPECT_EQ(message.fields.size(), 4U);
-  EXPECT_EQ(message.point_step, 16U);
-  EXPECT_EQ(message.row_step, 32U);
-  EXPECT_EQ(message.data.size(), 32U);
+  ASSERT_EQ(message.fields.size(), 5U);
+  EXPECT_EQ(message.fields[4].name, "confidence");
+  EXPECT_EQ(message.fields[4].offset, 16U);
+  EXPECT_EQ(message.point_step, 20U);
+  EXPECT_EQ(message.row_step, 40U);
+  EXPECT_EQ(message.data.size(), 40U);
   EXPECT_FALSE(message.is_dense);
   pcl::PointCloud<pcl::PointXYZRGB> cloud;
   pcl::fromROSMsg(message, cloud);
@@ -146,27 +148,29 @@ TEST(CloudMessages, OfTheDenseCloudAreUnorganised)
   {
     points[i].z = static_cast<float>(i);
     points[i].r = 7;
+    points[i].confidence = 0.25F;
   }
   appendDensePoints(points.data(), 3, 1, message);
   appendDensePoints(points.data(), 5, 2, message);
   EXPECT_EQ(message.height, 1U);
   EXPECT_EQ(message.width, 6U);
-  EXPECT_EQ(message.row_step, 6U * 16U);
-  EXPECT_EQ(message.data.size(), 6U * 16U);
+  EXPECT_EQ(message.row_step, 6U * 20U);
+  EXPECT_EQ(message.data.size(), 6U * 20U);
   EXPECT_TRUE(message.is_dense);
   const auto* const kept = reinterpret_cast<const ColoredPoint*>(message.data.data());
   EXPECT_EQ(kept[2].z, 2.0F);
   EXPECT_EQ(kept[4].z, 2.0F) << "the second that was kept of five";
   EXPECT_EQ(kept[5].z, 4.0F);
   EXPECT_EQ(kept[5].r, 7);
+  EXPECT_EQ(kept[5].confidence, 0.25F);
 }
 
 TEST(CloudMessages, AreThinnedToWhatRosTransports)
 {
   EXPECT_EQ(thinningOfDenseCloud(0), 0U);
   EXPECT_EQ(thinningOfDenseCloud(1), 1U);
-  EXPECT_EQ(thinningOfDenseCloud(62500000), 1U);
-  EXPECT_EQ(thinningOfDenseCloud(62500001), 2U);
+  EXPECT_EQ(thinningOfDenseCloud(50000000), 1U);
+  EXPECT_EQ(thinningOfDenseCloud(50000001), 2U);
 }
 
 TEST(DisparityMessage, TheValidWindowBoundsWhatIsNotMasked)

@@ -16,7 +16,7 @@
 namespace light_field_depth
 {
 /// A coloured point in the optical frame of the reference view: x right, y down, z forward, metres.
-/// Laid out like a PointCloud2 with fields x y z rgb and a point_step of 16 bytes.
+/// Laid out like a PointCloud2 with fields x y z rgb confidence and a point_step of 20 bytes.
 struct ColoredPoint
 {
   float x;              ///< metres
@@ -25,9 +25,10 @@ struct ColoredPoint
   std::uint8_t b;       ///< blue
   std::uint8_t g;       ///< green
   std::uint8_t r;       ///< red
-  std::uint8_t unused;  ///< fills the 16 bytes
+  std::uint8_t unused;  ///< fills the bytes of rgb
+  float confidence;     ///< 0..1
 };
-static_assert(sizeof(ColoredPoint) == 16, "the clouds are written straight into message buffers");
+static_assert(sizeof(ColoredPoint) == 20, "the clouds are written straight into message buffers");
 
 /// Room for the points of a cloud in memory of the caller's, such as the buffer of a message. Called once, on
 /// the calling thread, when the number of points is known; what it throws comes out of the function that

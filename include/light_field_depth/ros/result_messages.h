@@ -54,8 +54,8 @@ sensor_msgs::ImagePtr confidenceMono8Message(const std_msgs::Header& header, con
 sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header,
                                             const DisparityEstimate& estimate);
 
-/// Makes a message of any content a cloud of x y z rgb in 16 bytes a point; organised, with NaN, is_dense
-/// false. @return where its points go, size.area() of them, row-major
+/// Makes a message of any content a cloud of x y z rgb confidence in 20 bytes a point;
+/// organised, with NaN, is_dense false. @return where its points go, size.area() of them, row-major
 /// @throw InputError if the message would be larger than ROS transports (1e9 bytes)
 ColoredPoint* shapeOrganizedCloud(const std_msgs::Header& header, const cv::Size& size,
                                   sensor_msgs::PointCloud2& cloud);

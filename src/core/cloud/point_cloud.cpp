@@ -1,5 +1,6 @@
 #include "light_field_depth/core/point_cloud.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/cloud/unprojection.h"
@@ -29,6 +30,8 @@ void unprojectReference(const LightField& light_field, const cv::Mat& disparity,
                        {
                          const bool trusted = cloud::isTrusted(confidence, y, x, min_confidence);
                          row[x] = unprojection.point(y, x, trusted ? disparity.at<float>(y, x) : NaN);
+                         row[x].confidence =
+                             confidence.empty() ? 1.0F : std::max(confidence.at<float>(y, x), 0.0F);
                        }
                      }
                    });

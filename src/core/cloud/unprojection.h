@@ -47,6 +47,7 @@ public:
     point.g = pixel[channels_ == 3 ? 1 : 0];
     point.r = pixel[channels_ == 3 ? 2 : 0];
     point.unused = 0;
+    point.confidence = 0.0F;
   }
 
 private:
@@ -73,7 +74,7 @@ public:
   /// Whether a disparity gives a depth. As in depthFromDisparity().
   bool isFinite(float disparity) const { return std::isfinite(depthOf(disparity)); }
 
-  /// x, y, z and the colour of one pixel; NaN where the disparity gives no depth.
+  /// x, y, z and the colour of one pixel, of confidence 0; NaN where the disparity gives no depth.
   ColoredPoint point(int y, int x, float disparity) const
   {
     const float z = depthOf(disparity);
