@@ -25,8 +25,9 @@ constexpr float NaN = std::numeric_limits<float>::quiet_NaN();
 TEST(CloudFiles, RoundTripLeavesOutWhatIsUnknown)
 {
   const TemporaryFolder folder;
-  const std::vector<ColoredPoint> points = {
-      {1.0F, -2.0F, 3.5F, 10, 20, 30, 0}, {NaN, NaN, NaN, 1, 2, 3, 0}, {0.25F, 0.5F, 9.0F, 255, 0, 128, 0}};
+  const std::vector<ColoredPoint> points = {{1.0F, -2.0F, 3.5F, 10, 20, 30, 0, 1.0F},
+                                            {NaN, NaN, NaN, 1, 2, 3, 0, 0.0F},
+                                            {0.25F, 0.5F, 9.0F, 255, 0, 128, 0, 0.5F}};
   EXPECT_EQ(writePly(folder / "cloud.ply", points), 2U);
   pcl::PointCloud<pcl::PointXYZRGB> cloud;
   ASSERT_EQ(pcl::io::loadPLYFile((folder / "cloud.ply").string(), cloud), 0);
@@ -45,15 +46,15 @@ TEST(CloudFiles, RoundTripLeavesOutWhatIsUnknown)
 TEST(CloudFiles, WritesNoFileWithoutPointsAndSaysWhereItCannotWrite)
 {
   const TemporaryFolder folder;
-  EXPECT_EQ(writePly(folder / "cloud.ply", {{NaN, NaN, NaN, 0, 0, 0, 0}}), 0U);
+  EXPECT_EQ(writePly(folder / "cloud.ply", {{NaN, NaN, NaN, 0, 0, 0, 0, 0}}), 0U);
   EXPECT_EQ(folder.fileCount(), 0U);
-  EXPECT_THROW(writePly(folder / "absent/cloud.ply", {{1, 1, 1, 0, 0, 0, 0}}), InputError);
+  EXPECT_THROW(writePly(folder / "absent/cloud.ply", {{1, 1, 1, 0, 0, 0, 0, 0}}), InputError);
 }
 
 TEST(CloudFiles, HaveVerticesAloneAndTurnTheirAxesOnRequest)
 {
   const TemporaryFolder folder;
-  const std::vector<ColoredPoint> points = {{1.0F, -2.0F, 3.5F, 10, 20, 30, 0}};
+  const std::vector<ColoredPoint> points = {{1.0F, -2.0F, 3.5F, 10, 20, 30, 0, 1.0F}};
   for (const auto& [axes, y] :
        {std::make_pair(CloudAxes::Optical, -2.0F), std::make_pair(CloudAxes::YUp, 2.0F)})
   {

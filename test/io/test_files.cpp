@@ -42,7 +42,8 @@ TEST(Files, CloudsAndImagesFailLikeAnyFile)
 {
   const TemporaryFolder folder;
   const testing::FileSizeLimit limit(1000);
-  EXPECT_THROW(writePly(folder / "a.ply", std::vector<ColoredPoint>(200, {1, 2, 3, 4, 5, 6, 0})), InputError);
+  EXPECT_THROW(writePly(folder / "a.ply", std::vector<ColoredPoint>(200, {1, 2, 3, 4, 5, 6, 0, 1})),
+               InputError);
   cv::Mat noise(64, 64, CV_8UC3);
   cv::randu(noise, 0, 255);
   EXPECT_THROW(writeImage(folder / "a.png", noise), InputError);
