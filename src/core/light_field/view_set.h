@@ -14,13 +14,6 @@
 
 namespace light_field_depth::multiview
 {
-/// What of a colour image is looked at. Of a grey one it is its only channel.
-enum class ChannelChoice
-{
-  All,
-  Green  ///< nearest to brightness, and what a sensor's mosaic samples most densely
-};
-
 /// One 8-bit image as planes: row after row, and in each row channel after channel, so that the channels of
 /// a pixel row lie together. Every row has `pad` replicated pixels on its left and more than that, by
 /// at least 64, on its right.
@@ -36,9 +29,6 @@ public:
   int pad() const { return pad_; }
   /// Bytes from one channel of a row to the next.
   std::size_t channelStride() const { return pitch_; }
-  /// The channels that a choice of them takes, and the bytes to the first of them.
-  int channels(ChannelChoice choice) const { return takesOne(choice) ? 1 : channels_; }
-  std::size_t channelOffset(ChannelChoice choice) const { return takesOne(choice) ? GREEN * pitch_ : 0; }
 
   /// The pixel (0, y) of channel 0; y is clamped into the image.
   const std::uint8_t* row(int y) const
@@ -49,9 +39,6 @@ public:
   std::uint8_t* row(int y) { return const_cast<std::uint8_t*>(std::as_const(*this).row(y)); }
 
 private:
-  static constexpr std::size_t GREEN = 1;
-  bool takesOne(ChannelChoice choice) const { return choice == ChannelChoice::Green && channels_ > 1; }
-
   int width_ = 0;
   int height_ = 0;
   int channels_ = 0;

@@ -29,9 +29,10 @@ constexpr float NOISY_LABEL_STEP_PX = 0.125F;  // finer ones are below what nois
 constexpr float STRONG_SIGMA = 2.5F;
 constexpr int STRONG_NOISE_PASSES = 3;
 constexpr int WIDE_WINDOW_RADIUS = 4;  // 3 and 5 are as good within 2 %
-/// Of P1 in a first search of one channel, or of much noise: less data asks for more smoothness. Measured on
-/// the demo, two benchmark scenes, these with noise of 5 levels, and two captures.
-constexpr float FIRM_SMALL_CHANGE_SHARE = 1.4F;
+/// Of P1 in a first search of clean views, and of very noisy ones: a little better there than 1.2, while a
+/// blank wall of a capture asks for 1.2. Measured on the demo, two benchmark scenes, these with noise of 5
+/// levels, and two captures.
+constexpr float FIRM_SMALL_CHANGE_SHARE = 1.0F;
 
 }  // namespace
 
@@ -40,8 +41,6 @@ void adaptToNoise(float noise_sigma, SolverSettings& settings)
   settings.noise_sigma = noise_sigma;
   if (noise_sigma < CLEAN_SIGMA)
   {
-    settings.begin_with_less = true;
-    settings.first_small_change_share = FIRM_SMALL_CHANGE_SHARE;
     return;
   }
   const float blur = std::min(BLUR_BASE_PX + BLUR_PER_SIGMA_PX * noise_sigma, MAX_BLUR_PX);

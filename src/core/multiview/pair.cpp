@@ -51,7 +51,6 @@ void adaptToPair(SolverSettings& settings)
   // 0.5 to 1.0 % and Middlebury's Art from 10.8 to 11.7 % of pixels that are off by more than 4.
   settings.first_label_steps = 1.0F;
   settings.first_small_change_share = 1.0F;
-  settings.begin_with_less = false;
   settings.last_large_change_share = 0.75F;
 }
 

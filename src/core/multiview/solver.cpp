@@ -19,8 +19,8 @@ constexpr int ROWS_PER_CHUNK = 32;
 constexpr int MAX_LABELS = 240;
 /// A later search tries the labels that the one before found within so many pixels of a tile, and so many
 /// more.
-constexpr int BAND_REACH_PX = 4;
-constexpr float BAND_MARGIN_LABELS = 2.0F;
+constexpr int BAND_REACH_PX = 8;
+constexpr float BAND_MARGIN_LABELS = 4.0F;
 /// The same for the first search of a frame that follows another one, whose objects may have moved.
 constexpr int FOLLOWED_REACH_PX = 12;
 constexpr float FOLLOWED_MARGIN_PX = 0.5F;
@@ -30,15 +30,6 @@ constexpr float UNIT_LABEL_STEP_PX = 0.125F;
 constexpr int MAX_STEP = 12000;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
-
-void adaptToChannels(int channels, CostSettings& cost)
-{
-  if (channels == 1)
-  {
-    cost.truncation = std::max(1, cvRound(GREY_SHARE * static_cast<float>(cost.truncation)));
-    cost.unseen_penalty = cvRound(GREY_SHARE * static_cast<float>(cost.unseen_penalty));
-  }
-}
 
 PathSettings firstPaths(PathSettings paths, const SolverSettings& settings)
 {
@@ -120,12 +111,13 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
 bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& context)
 {
   CostSettings cost = settings.cost;
+  if (views_.reference.channels() == 1)
+  {
+    cost.truncation = std::max(1, cvRound(GREY_SHARE * static_cast<float>(cost.truncation)));
+    cost.unseen_penalty = cvRound(GREY_SHARE * static_cast<float>(cost.unseen_penalty));
+  }
   cost.min_seeing_views = std::min(cost.min_seeing_views, static_cast<int>(views_.views.size()));
-  CostSettings first_cost = cost;
-  first_cost.channels = settings.begin_with_less ? ChannelChoice::Green : ChannelChoice::All;
-  adaptToChannels(views_.reference.channels(first_cost.channels), first_cost);
-  adaptToChannels(views_.reference.channels(), cost);
-  if (!computeFirstCosts(settings, first_cost, where, context))
+  if (!computeFirstCosts(settings, cost, where, context))
   {
     return false;
   }
@@ -267,14 +259,9 @@ void Solver::refine(const SolverSettings& settings, RunContext& context)
   }
   for (int i = 0; i < settings.refinements; ++i)
   {
-    const bool last = i + 1 == settings.refinements;
-    LinearizationSettings linearization = settings.linearization;
-    const bool with_less = settings.begin_with_less && i == 0 && !last;
-    linearization.channels = with_less ? ChannelChoice::Green : ChannelChoice::All;
-    linearize(settings, linearization, context);
+    linearize(settings, context);
     const StageTimer timer(context, "smooth");
-    smoothing.follow_slopes = last;
-    smoothing.reweightings = settings.smoothing.reweightings - (with_less ? 1 : 0);
+    smoothing.follow_slopes = i + 1 == settings.refinements;
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity_);
     keepNearLabels(context);
   }
@@ -303,11 +290,10 @@ void Solver::keepNearLabels(RunContext& context)
                            });
 }
 
-void Solver::linearize(const SolverSettings& settings, const LinearizationSettings& linearization,
-                       RunContext& context)
+void Solver::linearize(const SolverSettings& settings, RunContext& context)
 {
   const StageTimer timer(context, "linearize");
-  linearizer_.run(views_, disparity_, noise_.local_slope_variance, linearization, context.pool,
+  linearizer_.run(views_, disparity_, noise_.local_slope_variance, settings.linearization, context.pool,
                   linearization_);
   discount_.apply(settings.noise_discount, context.pool, linearization_);
 }
@@ -321,7 +307,7 @@ void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
 {
   if (settings.refinements == 0)
   {
-    linearize(settings, settings.linearization, context);
+    linearize(settings, context);
   }
   context.save("multiview_curvature", linearization_.weight);
   context.save("multiview_residual", linearization_.residual);

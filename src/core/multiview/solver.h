@@ -33,11 +33,8 @@ struct SolverSettings
   DisparityRange range;
   float label_step_px = 0.125F;  ///< of the last search
   /// The labels of the first search, which only has to find the surfaces, are so many times as far apart.
-  float first_label_steps = 2.0F;
+  float first_label_steps = 1.0F;
   bool grey_search = false;
-  /// The first search, and the first of several refinements, look at one channel only, and that refinement
-  /// reweights once less. It is enough for clean views.
-  bool begin_with_less = false;
   float noise_sigma = 0.0F;    ///< of the views as given, in 8-bit units
   double blur_sigma_px = 0.0;  ///< of the views before anything else
   CostSettings cost;
@@ -45,9 +42,9 @@ struct SolverSettings
   /// Of P1 and P2 in the first and in the last search. The first one has to find the surfaces from costs that
   /// occlusions spoil; the last one knows who sees what, and may follow their shapes and contours more
   /// freely. Measured on the demo, two benchmark scenes, and these with noise and under the camera model.
-  float first_small_change_share = 1.2F;
+  float first_small_change_share = 1.0F;
   float last_small_change_share = 1.5F;
-  float last_large_change_share = 0.675F;
+  float last_large_change_share = 0.75F;
   int visibility_passes = 1;
   bool fuse_background = true;
   bool keep_thin_structures = false;
@@ -105,8 +102,7 @@ private:
   void aggregate(const SolverSettings& settings, RunContext& context);
   void fuseBackground(const SolverSettings& settings, RunContext& context);
   void refine(const SolverSettings& settings, RunContext& context);
-  void linearize(const SolverSettings& settings, const LinearizationSettings& linearization,
-                 RunContext& context);
+  void linearize(const SolverSettings& settings, RunContext& context);
   void keepNearLabels(RunContext& context);
   void rateConfidence(const SolverSettings& settings, RunContext& context);
   void forgetMasked();

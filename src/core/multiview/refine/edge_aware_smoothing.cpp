@@ -76,7 +76,7 @@ void EdgeAwareSmoother::run(const cv::Mat& weight, const cv::Mat& target, const 
   link_above_.create(disparity.rows + 1, disparity.cols, CV_32FC1);
   link_above_.row(disparity.rows).setTo(0.0F);
   level_.assign(static_cast<std::size_t>(disparity.cols), 0.0F);
-  for (std::size_t i = 0; i < settings.reweightings; ++i)
+  for (std::size_t i = 0; i < settings.flat_px.size(); ++i)
   {
     const float flat_px = settings.flat_px[i];
     const bool lean = settings.follow_slopes && i > 0;

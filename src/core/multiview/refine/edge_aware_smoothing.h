@@ -2,7 +2,6 @@
 #define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_EDGE_AWARE_SMOOTHING_H
 
 #include <array>
-#include <cstddef>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -24,7 +23,6 @@ struct SmoothingSettings
   /// first, so that what is far from the minimum comes near it before steps are told from slopes. A third
   /// more of each costs cotton 0.02 % and antinous 0.1 % BadPix 0.03 (docs/experiments.md).
   std::array<float, 3> flat_px = {0.15F, 0.04F, 0.012F};
-  std::size_t reweightings = flat_px.size();  ///< of these, from the first on
   /// From the second reweighting on surfaces go on with their slopes; else they are level.
   bool follow_slopes = false;
   SlopeSettings slopes;

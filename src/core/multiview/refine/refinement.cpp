@@ -64,8 +64,8 @@ public:
       : views_(views), rays_(rays), disparity_(disparity), slope_variance_(slope_variance),
         settings_(settings), scratch_(scratch), result_(result), width_(views.width()),
         height_(views.height()), arms_(views.arms.size()),
-        channels_(static_cast<std::size_t>(views.reference.channels(settings.channels))),
-        stride_(roundUp(width_, TILE_PIXELS)), moments_(momentCount(static_cast<int>(channels_))),
+        channels_(static_cast<std::size_t>(views.reference.channels())),
+        stride_(roundUp(width_, TILE_PIXELS)), moments_(momentCount(views.reference.channels())),
         pair_stride_(moments_ * stride_), masked_(views.hasMasks()), near_ring_(2 * RESIDUAL_RADIUS + 1),
         pair_ring_(2 * settings.window_radius + 1)
   {
@@ -144,8 +144,8 @@ private:
     tile.ray_count = static_cast<int>(rays_.rays.size());
     tile.width = width_;
     tile.height = height_;
-    tile.channels = static_cast<int>(channels_);
-    tile.reference = views_.reference.row(y) + views_.reference.channelOffset(settings_.channels);
+    tile.channels = views_.reference.channels();
+    tile.reference = views_.reference.row(y);
     tile.reference_stride = views_.reference.channelStride();
     tile.disparity = scratch_.disparity.data();
     tile.y = y;
@@ -354,7 +354,7 @@ void Linearizer::run(const ViewSet& views, const cv::Mat& disparity, const cv::M
   result.residual.create(disparity.size(), CV_32FC1);
   result.disagreement.create(disparity.size(), CV_32FC1);
   result.noise.create(disparity.size(), CV_32FC1);
-  const ViewRays rays = findViewRays(views, settings.channels);
+  const ViewRays rays = findViewRays(views);
   const int bands = BANDS_PER_THREAD * pool.threads();
   const int band_rows = std::max(MIN_BAND_ROWS, (disparity.rows + bands - 1) / bands);
   pool.parallelFor(

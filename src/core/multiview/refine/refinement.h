@@ -27,7 +27,6 @@ struct Linearization
 
 struct LinearizationSettings
 {
-  ChannelChoice channels = ChannelChoice::All;
   float max_step_px = 0.15F;     ///< the approximation holds for small steps only
   bool brightness_slope = true;  ///< allow brightness that changes linearly with the position of the view
   int window_radius = 2;         ///< pixels that share one step

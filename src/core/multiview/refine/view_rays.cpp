@@ -10,11 +10,11 @@ namespace
 /// Views whose directions differ by less stand on one ray.
 constexpr double SAME_DIRECTION = 1e-3;
 
-SampledView sampledView(const PreparedView& view, ChannelChoice choice)
+SampledView sampledView(const PreparedView& view)
 {
   SampledView sampled;
   const PlanarImage& image = view.image;
-  sampled.pixels = image.row(0) + image.channelOffset(choice);
+  sampled.pixels = image.row(0);
   sampled.channel_stride = image.channelStride();
   sampled.row_stride = static_cast<std::ptrdiff_t>(image.channelStride()) * image.channels();
   sampled.pad_before = image.pad();
@@ -34,7 +34,7 @@ SampledView sampledView(const PreparedView& view, ChannelChoice choice)
 
 }  // namespace
 
-ViewRays findViewRays(const ViewSet& views, ChannelChoice choice)
+ViewRays findViewRays(const ViewSet& views)
 {
   ViewRays result;
   for (const Arm& arm : views.arms)
@@ -54,10 +54,9 @@ ViewRays findViewRays(const ViewSet& views, ChannelChoice choice)
           std::stable_partition(left.begin(), left.end(),
                                 [&](int view) { return cv::norm(direction(view) - along) < SAME_DIRECTION; });
       const int first = static_cast<int>(result.views.size());
-      std::for_each(
-          left.begin(), rest,
-          [&](int view)
-          { result.views.push_back(sampledView(views.views[static_cast<std::size_t>(view)], choice)); });
+      std::for_each(left.begin(), rest,
+                    [&](int view)
+                    { result.views.push_back(sampledView(views.views[static_cast<std::size_t>(view)])); });
       result.rays.push_back({first, static_cast<int>(result.views.size())});
       result.directions.emplace_back(along);
       left.erase(left.begin(), rest);

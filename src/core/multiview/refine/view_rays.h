@@ -20,7 +20,7 @@ struct ViewRays
 };
 
 /// The result points into `views`.
-ViewRays findViewRays(const ViewSet& views, ChannelChoice choice);
+ViewRays findViewRays(const ViewSet& views);
 
 }  // namespace light_field_depth::multiview
 

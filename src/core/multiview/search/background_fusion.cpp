@@ -26,7 +26,7 @@ constexpr float SUPPORT_DISTANCE_PX = 0.25F;
 constexpr float FLOOR_QUANTILE = 0.05F;
 /// Charge in later searches for leaving the background, what is free of it, and its limit.
 constexpr float MOVED_CHARGE_PER_PX = 16.0F;
-constexpr float MOVED_SLACK_PX = 0.3F;
+constexpr float MOVED_SLACK_PX = 0.375F;
 constexpr int MAX_MOVED_CHARGE = 20;
 
 SupportLine::Lines linesAbout(const CostVolume& volume, int tile_column, int y)

@@ -158,7 +158,7 @@ struct CostVolumeBuilder::RowJob
     scratch.masked.resize(count);
     for (std::size_t i = 0; i < count; ++i)
     {
-      scratch.samples[i].reset(views.views[i], labels, settings.channels);
+      scratch.samples[i].reset(views.views[i], labels);
     }
     scratch.cost.resize(static_cast<std::size_t>(volume.bands.columns()) * TILE_PX + VECTOR_OVERRUN);
   }
@@ -296,19 +296,14 @@ private:
     return result.data();
   }
 
-  const std::uint8_t* reference(int y) const
-  {
-    return views.reference.row(y) + views.reference.channelOffset(settings.channels);
-  }
-
   void armCost(int y, int first_x, int width) const
   {
     ArmCostRow row;
-    row.reference = reference(y) + first_x;
+    row.reference = views.reference.row(y) + first_x;
     row.reference_stride = views.reference.channelStride();
     row.samples = shifted(scratch.pointers, first_x, scratch.shifted_pointers);
     row.sample_stride = scratch.samples.front().channelStride();
-    row.channels = views.reference.channels(settings.channels);
+    row.channels = views.reference.channels();
     row.width = width;
     row.truncation = settings.truncation;
     row.arms = views.arms.data();
@@ -344,13 +339,13 @@ private:
   void visibleCost(int label, int y, int first_x, int width) const
   {
     VisibleCostRow row;
-    row.reference = reference(y) + first_x;
+    row.reference = views.reference.row(y) + first_x;
     row.reference_stride = views.reference.channelStride();
     row.samples = shifted(scratch.pointers, first_x, scratch.shifted_pointers);
     row.sample_stride = scratch.samples.front().channelStride();
     row.surfaces = shifted(scratch.surfaces, first_x, scratch.shifted_surfaces);
     row.views = static_cast<int>(scratch.samples.size());
-    row.channels = views.reference.channels(settings.channels);
+    row.channels = views.reference.channels();
     row.width = width;
     row.truncation = settings.truncation;
     row.hidden_above = std::min(label + 1 + HIDDEN_MARGIN_LABELS, OUT_OF_FRAME - 1);

@@ -58,7 +58,6 @@ struct CostVolume
 /// Where the costs come from.
 struct CostSettings
 {
-  ChannelChoice channels = ChannelChoice::All;
   int truncation = 30;  ///< of one view's difference, summed over the channels
   /// Cost of a view that is missing to min_seeing_views. With less than the truncation, what no view can see
   /// would beat what several views see badly.

@@ -22,11 +22,9 @@ int modulo(int value, int divisor)
 
 }  // namespace
 
-void SampleRows::reset(const PreparedView& view, const LabelSpace& labels, ChannelChoice choice)
+void SampleRows::reset(const PreparedView& view, const LabelSpace& labels)
 {
   image_ = &view.image;
-  channels_ = image_->channels(choice);
-  channel_offset_ = image_->channelOffset(choice);
   stride_ = image_->channelStride();
   shifts_.clear();
   phases_.clear();
@@ -49,7 +47,7 @@ void SampleRows::reset(const PreparedView& view, const LabelSpace& labels, Chann
   }
   ring_rows_ = last_dy - first_dy_ + 1;
   row_in_slot_.assign(phases_.size() * static_cast<std::size_t>(ring_rows_), NO_ROW);
-  values_.resize(row_in_slot_.size() * stride_ * static_cast<std::size_t>(channels_) + OVERRUN);
+  values_.resize(row_in_slot_.size() * stride_ * static_cast<std::size_t>(image_->channels()) + OVERRUN);
   scratch_.resize(stride_ + OVERRUN);
 }
 
@@ -71,7 +69,7 @@ const std::uint8_t* SampleRows::row(int label, int y)
   const Phase& phase = phases_[static_cast<std::size_t>(where.phase)];
   if (phase.x == 0 && phase.y == 0)
   {
-    return image_->row(y + where.dy) + channel_offset_ + where.dx;
+    return image_->row(y + where.dy) + where.dx;
   }
   return slot(where.phase, y + where.dy) + image_->pad() + where.dx;
 }
@@ -80,7 +78,8 @@ std::uint8_t* SampleRows::slot(int phase, int row)
 {
   const std::size_t index = static_cast<std::size_t>(phase) * static_cast<std::size_t>(ring_rows_) +
                             static_cast<std::size_t>(modulo(row, ring_rows_));
-  std::uint8_t* const values = values_.data() + index * stride_ * static_cast<std::size_t>(channels_);
+  std::uint8_t* const values =
+      values_.data() + index * stride_ * static_cast<std::size_t>(image_->channels());
   if (row_in_slot_[index] != row)
   {
     interpolate(phases_[static_cast<std::size_t>(phase)], row, values);
@@ -94,11 +93,11 @@ void SampleRows::interpolate(const Phase& phase, int row, std::uint8_t* values)
   const int pad = image_->pad();
   const int first_tap = 1;  // the taps reach one pixel to the left and two to the right
   const int count = image_->width() + 2 * pad - 4;
-  for (int channel = 0; channel < channels_; ++channel)
+  for (int channel = 0; channel < image_->channels(); ++channel)
   {
     const std::size_t offset = static_cast<std::size_t>(channel) * stride_;
     std::uint8_t* const target = values + offset;
-    const auto source = [&](int dy) { return image_->row(row + dy) + channel_offset_ + offset - pad; };
+    const auto source = [&](int dy) { return image_->row(row + dy) + offset - pad; };
     const std::uint8_t* line = source(0);
     if (phase.y != 0)
     {

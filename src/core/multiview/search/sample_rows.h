@@ -28,7 +28,7 @@ class SampleRows
 {
 public:
   /// @param image must outlive the use of row()
-  void reset(const PreparedView& view, const LabelSpace& labels, ChannelChoice choice);
+  void reset(const PreparedView& view, const LabelSpace& labels);
 
   const LabelShift& shift(int label) const { return shifts_[static_cast<std::size_t>(label)]; }
 
@@ -48,8 +48,6 @@ private:
   void interpolate(const Phase& phase, int row, std::uint8_t* values);
 
   const PlanarImage* image_ = nullptr;
-  int channels_ = 0;
-  std::size_t channel_offset_ = 0;
   std::vector<LabelShift> shifts_;
   std::vector<Phase> phases_;
   int first_dy_ = 0;

@@ -27,7 +27,7 @@ TEST(ViewRays, OfACrossAreItsFourArms)
 {
   ThreadPool pool(1);
   const ViewSet views = viewSetOf(testing::crossPositions(5, 5), pool);
-  const ViewRays rays = findViewRays(views, ChannelChoice::All);
+  const ViewRays rays = findViewRays(views);
   ASSERT_EQ(rays.rays.size(), 4U);
   ASSERT_EQ(rays.of_arm.size(), 4U);
   for (const ViewRay& ray : rays.rays)
@@ -40,7 +40,7 @@ TEST(ViewRays, OfAGridAreMoreThanItsArms)
 {
   ThreadPool pool(1);
   const ViewSet views = viewSetOf(testing::gridPositions(5, 5), pool);
-  const ViewRays rays = findViewRays(views, ChannelChoice::All);
+  const ViewRays rays = findViewRays(views);
   EXPECT_EQ(rays.of_arm.size(), 8U);
   EXPECT_EQ(rays.rays.size(), 16U);  // eight of two views, eight of one a knight's move away
   EXPECT_EQ(rays.views.size(), views.views.size());

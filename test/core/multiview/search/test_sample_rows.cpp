@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -35,7 +34,7 @@ TEST(SampleRows, AreMovedByTheDisparityOfTheLabel)
   {
     const PreparedView view = ramp(steps);
     SampleRows rows;
-    rows.reset(view, labels, ChannelChoice::All);
+    rows.reset(view, labels);
     for (int y = 8; y < 30; ++y)
     {
       for (int label = 0; label < labels.count; ++label)
@@ -46,30 +45,6 @@ TEST(SampleRows, AreMovedByTheDisparityOfTheLabel)
         const double seen_y = y - disparity * steps.y;
         EXPECT_NEAR(row[20], 4.0 * x + 2.0 * seen_y, 1.0) << steps << ", label " << label << ", row " << y;
       }
-    }
-  }
-}
-
-TEST(SampleRows, OfTheGreenChannelAloneAreThoseOfAllChannels)
-{
-  cv::Mat image(40, 48, CV_8UC3);
-  cv::RNG random(1);
-  random.fill(image, cv::RNG::UNIFORM, 0, 256);
-  PreparedView view;
-  preparePlanar(image, {}, 16, view.image);
-  view.steps = {1.0, 0.5};
-  const LabelSpace labels{-1.0F, 0.25F, 9};
-  SampleRows all;
-  SampleRows green;
-  all.reset(view, labels, ChannelChoice::All);
-  green.reset(view, labels, ChannelChoice::Green);
-  for (int y = 0; y < image.rows; ++y)
-  {
-    for (int label = 0; label < labels.count; ++label)
-    {
-      const std::uint8_t* const expected = all.row(label, y) + all.channelStride();
-      const std::uint8_t* const row = green.row(label, y);
-      EXPECT_TRUE(std::equal(row, row + image.cols, expected)) << "label " << label << ", row " << y;
     }
   }
 }
