@@ -87,49 +87,6 @@ std::vector<std::size_t> nearestViews(const LightField& light_field)
   return chosen;
 }
 
-/// Variance of the difference of two blocks, a channel, less what texture that is shifted by a fraction of a
-/// pixel makes of it: what gradients explain. They are those of both blocks together, whose noise tells
-/// nothing of the noise of the difference.
-float varianceBesideShift(const BlockPixels& one, const cv::Point& at_one, const BlockPixels& other,
-                          const cv::Point& at_other)
-{
-  cv::Matx22d gradients = cv::Matx22d::zeros();
-  cv::Vec2d moments = {};
-  double squares = 0.0;
-  constexpr double count = BLOCK * BLOCK;
-  for (int c = 0; c < one.channels; ++c)
-  {
-    const std::uint8_t* const a = one.at(at_one.x, at_one.y) + c * one.channel_stride;
-    const std::uint8_t* const b = other.at(at_other.x, at_other.y) + c * other.channel_stride;
-    const auto both = [&](int x, int y) {
-      return a[y * one.row_stride + x * one.pixel_stride] + b[y * other.row_stride + x * other.pixel_stride];
-    };
-    cv::Vec3d sum = {};
-    cv::Matx33d product = cv::Matx33d::zeros();
-    for (int y = 0; y < BLOCK; ++y)
-    {
-      for (int x = 0; x < BLOCK; ++x)
-      {
-        // The mean of the two central differences, and the difference.
-        const cv::Vec3d terms(
-            0.25 * (both(x + 1, y) - both(x - 1, y)), 0.25 * (both(x, y + 1) - both(x, y - 1)),
-            a[y * one.row_stride + x * one.pixel_stride] - b[y * other.row_stride + x * other.pixel_stride]);
-        sum += terms;
-        product += terms * terms.t();
-      }
-    }
-    product -= sum * sum.t() * (1.0 / count);
-    gradients += product.get_minor<2, 2>(0, 0);
-    moments += cv::Vec2d(product(0, 2), product(1, 2));
-    squares += product(2, 2);
-  }
-  // So flat a block has no shift.
-  constexpr double least_gradients = 1e-3;
-  const cv::Matx22d kept = gradients + cv::Matx22d::eye() * least_gradients;
-  const cv::Vec2d shift = kept.inv() * moments;
-  return static_cast<float>(std::max(squares - shift.dot(moments), 0.0) / (count * one.channels));
-}
-
 /// Variance of the difference to the view at the shift where it is least; negative if the view shows the
 /// block at none.
 float leastVariance(const BlockPixels& reference, const View& view, const DisparityRange& range,
@@ -139,7 +96,6 @@ float leastVariance(const BlockPixels& reference, const View& view, const Dispar
   const double widest = std::max(std::abs(view.steps.x), std::abs(view.steps.y));
   const int shifts = std::min(cvCeil((range.max - range.min) * widest) + 1, MAX_SHIFTS);
   float least = -1.0F;
-  cv::Point best;
   for (int i = 0; i < shifts; ++i)
   {
     const double disparity = range.min + (shifts > 1 ? i * (range.max - range.min) / (shifts - 1) : 0.0);
@@ -151,14 +107,10 @@ float leastVariance(const BlockPixels& reference, const View& view, const Dispar
           {reference.at(block.x, block.y), reference.row_stride, pixels.at(x, y), pixels.row_stride},
           BLOCK * reference.channels);
       const float here = blockVariance(sums, reference.channels);
-      if (least < 0.0F || here < least)
-      {
-        least = here;
-        best = {x, y};
-      }
+      least = least < 0.0F ? here : std::min(least, here);
     }
   }
-  return least < 0.0F ? least : varianceBesideShift(reference, {block.x, block.y}, pixels, best);
+  return least;
 }
 
 /// Compares a block of prepared views at its disparity.

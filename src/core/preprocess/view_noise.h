@@ -21,7 +21,7 @@ struct ViewNoise
 };
 
 /// From the calmest blocks of the reference and up to eight of the nearest views, each shifted by whole
-/// pixels to where it differs least, less what the rest of the shift makes of texture.
+/// pixels to where it differs least.
 /// @param light_field CV_8UC1 or CV_8UC3 views
 /// @param range in the unit of the light field
 /// @return standard deviation in 8-bit levels; 0 where too few blocks can be compared

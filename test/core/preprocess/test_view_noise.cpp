@@ -7,7 +7,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/noise_estimate.h"
-#include "support/synthetic_scene.h"
 
 namespace light_field_depth::multiview
 {
@@ -62,21 +61,6 @@ TEST(ViewNoise, IsToldWhateverItsSpectrum)
         EXPECT_LT(estimateNoise(wall.reference().image), 0.5 * sigma);
       }
     }
-  }
-}
-
-TEST(ViewNoise, IsNotTextureThatIsSeenBetweenPixels)
-{
-  ThreadPool pool(2);
-  testing::SceneSettings settings;
-  settings.size = {120, 96};
-  settings.positions = testing::crossPositions(5, 5);
-  for (const double disparity : {0.5, -0.37, 0.25})
-  {
-    const LightField clean =
-        testing::renderScene({testing::plane(disparity, 0.004, 0.002, testing::noiseTexture(5))}, settings)
-            .light_field;
-    EXPECT_LT(estimateNoiseOfViews(clean, {-1.0F, 1.0F}, pool), 0.5F) << disparity;
   }
 }
 
