@@ -41,6 +41,7 @@ COVERED_BY = {
     'view_frames': 'test_robot',
     'view_input': 'test_depth_node_behaviour',
     'view_messages': 'test_light_field_assembler',
+    'view_mask': 'test_masks',
     'voxel_merger': 'test_point_cloud',
 }
 
