@@ -29,10 +29,6 @@ constexpr float NOISY_LABEL_STEP_PX = 0.125F;  // finer ones are below what nois
 constexpr float STRONG_SIGMA = 2.5F;
 constexpr int STRONG_NOISE_PASSES = 3;
 constexpr int WIDE_WINDOW_RADIUS = 4;  // 3 and 5 are as good within 2 %
-/// Of P1 in a first search of clean views, and of very noisy ones: a little better there than 1.2, while a
-/// blank wall of a capture asks for 1.2. Measured on the demo, two benchmark scenes, these with noise of 5
-/// levels, and two captures.
-constexpr float FIRM_SMALL_CHANGE_SHARE = 1.0F;
 
 }  // namespace
 
@@ -55,7 +51,6 @@ void adaptToNoise(float noise_sigma, SolverSettings& settings)
   if (noise_sigma >= STRONG_SIGMA)
   {
     settings.linearization.window_radius = WIDE_WINDOW_RADIUS;
-    settings.first_small_change_share = FIRM_SMALL_CHANGE_SHARE;
     settings.last_small_change_share = 1.0F;
     settings.last_large_change_share = 1.0F;
     // Worth their time only here, and only where colour is worth its time.

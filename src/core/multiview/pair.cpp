@@ -47,11 +47,6 @@ void adaptToPair(SolverSettings& settings)
 {
   settings.paths.large_change_penalty *= LARGE_CHANGE_FACTOR;
   settings.cost.unseen_penalty = settings.cost.truncation / UNSEEN_DIVISOR;
-  // Half a pixel between its labels is as far as one search may go: twice that takes ETH3D's playground from
-  // 0.5 to 1.0 % and Middlebury's Art from 10.8 to 11.7 % of pixels that are off by more than 4.
-  settings.first_label_steps = 1.0F;
-  settings.first_small_change_share = 1.0F;
-  settings.last_large_change_share = 0.75F;
 }
 
 }  // namespace light_field_depth::multiview

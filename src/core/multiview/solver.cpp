@@ -23,20 +23,13 @@ constexpr int BAND_REACH_PX = 8;
 constexpr float BAND_MARGIN_LABELS = 4.0F;
 /// The same for the first search of a frame that follows another one, whose objects may have moved.
 constexpr int FOLLOWED_REACH_PX = 12;
-constexpr float FOLLOWED_MARGIN_PX = 0.5F;
+constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
 /// Distance of the labels that SolverSettings::paths is meant for.
 constexpr float UNIT_LABEL_STEP_PX = 0.125F;
 /// Of a penalty: the sum over four paths, each FULL_COST and a penalty at the most, stays in 16 bits.
 constexpr int MAX_STEP = 12000;
 /// A difference of grey values compared with the sum of the differences of three channels.
 constexpr float GREY_SHARE = 0.4F;
-
-PathSettings firstPaths(PathSettings paths, const SolverSettings& settings)
-{
-  paths.small_change_penalty =
-      cvRound(settings.first_small_change_share * static_cast<float>(paths.small_change_penalty));
-  return paths;
-}
 
 PathSettings lastPaths(PathSettings paths, const SolverSettings& settings)
 {
@@ -90,11 +83,11 @@ bool Solver::solve(const SolverSettings& settings, SearchIn where, RunContext& c
 void Solver::prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context)
 {
   const StageTimer timer(context, "prepare");
-  last_labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
-  const bool searches_again = settings.visibility_passes > 0;
-  labels_ = searches_again ? makeLabelSpace(settings.range,
-                                            settings.label_step_px * settings.first_label_steps, MAX_LABELS)
-                           : last_labels_;
+  labels_ = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
+  paths_ = settings.paths;
+  const float small_change_penalty =
+      static_cast<float>(paths_.small_change_penalty) * labels_.step_px / UNIT_LABEL_STEP_PX;
+  paths_.small_change_penalty = cvRound(small_change_penalty);
   ViewSetSettings view_settings;
   view_settings.grey = settings.grey_search;
   view_settings.blur_sigma_px = settings.blur_sigma_px;
@@ -121,7 +114,7 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
   {
     return false;
   }
-  setPaths(firstPaths(settings.paths, settings), context);
+  setPaths(paths_, context);
   aggregate(settings, context);
   if (settings.detect_changes && !acceptFirstMap(where, context))
   {
@@ -131,7 +124,6 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
   {
     fuseBackground(settings, context);
   }
-  labels_ = last_labels_;
   disparity_.copyTo(first_search_);
   context.save("multiview_first_search", first_search_);
   for (int pass = 0; pass < settings.visibility_passes; ++pass)
@@ -146,11 +138,13 @@ bool Solver::search(const SolverSettings& settings, SearchIn where, RunContext& 
       cost_builder_.buildFromVisible(views_, labels_, bands_, surfaces_, cost, context.pool, volume_);
       if (settings.fuse_background)
       {
-        background_.chargeMoved(labels_, context.pool, volume_);
+        background_.chargeMoved(context.pool, volume_);
       }
     }
-    const bool last = pass + 1 == settings.visibility_passes;
-    setPaths(last ? lastPaths(settings.paths, settings) : settings.paths, context);
+    if (pass + 1 == settings.visibility_passes)
+    {
+      setPaths(lastPaths(paths_, settings), context);
+    }
     aggregate(settings, context);
   }
   return true;
@@ -160,8 +154,6 @@ void Solver::setPaths(const PathSettings& paths, RunContext& context)
 {
   const StageTimer timer(context, "aggregate");
   paths_ = paths;
-  paths_.small_change_penalty =
-      cvRound(static_cast<float>(paths.small_change_penalty) * labels_.step_px / UNIT_LABEL_STEP_PX);
   // Sixteen bits hold the sums of the paths.
   paths_.small_change_penalty = std::clamp(paths_.small_change_penalty, 1, MAX_STEP);
   paths_.large_change_penalty = std::clamp(paths_.large_change_penalty, 1, MAX_STEP);
@@ -178,8 +170,7 @@ bool Solver::computeFirstCosts(const SolverSettings& settings, const CostSetting
   }
   else
   {
-    bands_.setAround(disparity_, labels_, FOLLOWED_REACH_PX, FOLLOWED_MARGIN_PX / labels_.step_px,
-                     context.pool);
+    bands_.setAround(disparity_, labels_, FOLLOWED_REACH_PX, FOLLOWED_MARGIN_LABELS, context.pool);
   }
   if (!settings.detect_changes)
   {
@@ -272,8 +263,8 @@ void Solver::refine(const SolverSettings& settings, RunContext& context)
 /// was searched.
 void Solver::keepNearLabels(RunContext& context)
 {
-  const float low = last_labels_.first_px - REFINEMENT_REACH_PX;
-  const float high = last_labels_.disparity(static_cast<float>(last_labels_.count - 1)) + REFINEMENT_REACH_PX;
+  const float low = labels_.first_px - REFINEMENT_REACH_PX;
+  const float high = labels_.disparity(static_cast<float>(labels_.count - 1)) + REFINEMENT_REACH_PX;
   context.pool.parallelFor(0, disparity_.rows, ROWS_PER_CHUNK,
                            [&](int first, int last)
                            {

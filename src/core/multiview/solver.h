@@ -31,18 +31,14 @@ namespace light_field_depth::multiview
 struct SolverSettings
 {
   DisparityRange range;
-  float label_step_px = 0.125F;  ///< of the last search
-  /// The labels of the first search, which only has to find the surfaces, are so many times as far apart.
-  float first_label_steps = 1.0F;
+  float label_step_px = 0.125F;
   bool grey_search = false;
   float noise_sigma = 0.0F;    ///< of the views as given, in 8-bit units
   double blur_sigma_px = 0.0;  ///< of the views before anything else
   CostSettings cost;
   PathSettings paths;  ///< small_change_penalty for labels 1/8 px apart, scaled to what the range needs
-  /// Of P1 and P2 in the first and in the last search. The first one has to find the surfaces from costs that
-  /// occlusions spoil; the last one knows who sees what, and may follow their shapes and contours more
-  /// freely. Measured on the demo, two benchmark scenes, and these with noise and under the camera model.
-  float first_small_change_share = 1.0F;
+  /// Of P1 and P2 in the last search. The first one has to find the surfaces from costs that occlusions
+  /// spoil; the last one knows who sees what, and may follow their shapes and contours more freely.
   float last_small_change_share = 1.5F;
   float last_large_change_share = 0.75F;
   int visibility_passes = 1;
@@ -113,8 +109,7 @@ private:
 
   ViewSet views_;
   PlanarImage colour_reference_;  ///< only where the views are grey and the light field is not
-  LabelSpace labels_;             // of the search at work
-  LabelSpace last_labels_;        // of the last search
+  LabelSpace labels_;
   PathSettings paths_;
   LabelBands bands_;
   CostVolumeBuilder cost_builder_;

@@ -229,10 +229,10 @@ void BackgroundFusion::chargeBlock(int block_x, int block_y, const std::vector<s
   }
 }
 
-void BackgroundFusion::chargeMoved(const LabelSpace& labels, ThreadPool& pool, CostVolume& volume) const
+void BackgroundFusion::chargeMoved(ThreadPool& pool, CostVolume& volume) const
 {
-  const auto charge = ramp(volume.bands.labels(), MOVED_SLACK_PX / labels.step_px,
-                           MOVED_CHARGE_PER_PX * labels.step_px, MAX_MOVED_CHARGE);
+  const auto charge = ramp(volume.bands.labels(), MOVED_SLACK_PX / labels_.step_px,
+                           MOVED_CHARGE_PER_PX * labels_.step_px, MAX_MOVED_CHARGE);
   pool.parallelFor(0, volume.height, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
@@ -243,8 +243,7 @@ void BackgroundFusion::chargeMoved(const LabelSpace& labels, ThreadPool& pool, C
                          const std::int16_t label = moved_.at<std::int16_t>(y, x);
                          if (label != NO_LABEL)
                          {
-                           const float disparity = labels_.disparity(static_cast<float>(label));
-                           addSaturated(charge, std::max(0, cvRound(labels.label(disparity))), x, y, volume);
+                           addSaturated(charge, label, x, y, volume);
                          }
                        }
                      }

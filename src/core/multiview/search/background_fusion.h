@@ -32,8 +32,8 @@ public:
   void fuse(const CostVolume& volume, const PathAggregator& paths, const PathSettings& path_settings,
             const cv::Mat& background, ThreadPool& pool, cv::Mat& disparity);
 
-  /// Charges in a later volume, with labels of its own, for labels nearer than what was moved back.
-  void chargeMoved(const LabelSpace& labels, ThreadPool& pool, CostVolume& volume) const;
+  /// Charges in a later volume for labels nearer than what was moved back.
+  void chargeMoved(ThreadPool& pool, CostVolume& volume) const;
 
 private:
   struct Region;

@@ -99,25 +99,11 @@ TEST_F(BackgroundFusionTest, LaterSearchesAreHeldWhereItMoved)
   fill(-1);
   fused();
   fill(-1);
-  fusion_.chargeMoved(labels_, pool_, volume_);
-  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 2), 20);
+  fusion_.chargeMoved(pool_, volume_);
   EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 3), 20);
   EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 6), 26);
   EXPECT_EQ(volume_.at(90, 30, LABELS - 1), 40);
   EXPECT_EQ(volume_.at(20, 30, LABELS - 1), 60);
-}
-
-TEST_F(BackgroundFusionTest, LaterSearchesMayHaveOtherLabels)
-{
-  fill(-1);
-  fused();
-  fill(-1);
-  // From 4 labels before the first one, half as far apart.
-  const LabelSpace finer{-1.25F, 0.0625F, 2 * LABELS};
-  fusion_.chargeMoved(finer, pool_, volume_);
-  const int moved_to = 4 + 2 * BACKGROUND;
-  EXPECT_EQ(volume_.at(90, 30, moved_to + 4), 20);
-  EXPECT_EQ(volume_.at(90, 30, moved_to + 6), 20);
 }
 
 }  // namespace
