@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
-#include <iostream>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +17,7 @@
 #include "profile.h"
 #include "report_files.h"
 #include "scaling.h"
+#include "tools/tool_main.h"
 #include "video.h"
 #include "view_order.h"
 
@@ -80,13 +79,8 @@ void declare(CLI::App& app, Settings& settings)
   app.add_option("--results", settings.results, "folder for the tables and JSON files")->take_last();
 }
 
-int run(int argc, char** argv)
+void runMeasurements(const CLI::App& app, const Settings& settings)
 {
-  CLI::App app{"Time and accuracy of this package; prints tables in Markdown."};
-  Settings settings;
-  declare(app, settings);
-  CLI11_PARSE(app, argc, argv);
-
   cv::setNumThreads(settings.threads);
   const bool all = app.count("--all") > 0;
   const auto is_named = [&](const Measurement& measurement) { return app.count(measurement.flag) > 0; };
@@ -98,7 +92,6 @@ int run(int argc, char** argv)
       measurement.run(settings);
     }
   }
-  return 0;
 }
 
 }  // namespace
@@ -106,13 +99,9 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return light_field_depth::benchmark::run(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
+  using namespace light_field_depth;
+  CLI::App app("Time and accuracy of this package; prints tables in Markdown.", "bench");
+  benchmark::Settings settings;
+  benchmark::declare(app, settings);
+  return runTool(app, argc, argv, [&] { benchmark::runMeasurements(app, settings); });
 }

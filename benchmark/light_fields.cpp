@@ -12,16 +12,30 @@
 
 namespace light_field_depth::benchmark
 {
-const std::vector<Variant>& ownMethods()
+namespace
 {
-  static const std::vector<Variant> methods = {
+const std::vector<Variant>& presets()
+{
+  static const std::vector<Variant> variants = {
       {"quality", {"multiview_preset=quality"}},
       {"balanced", {"multiview_preset=balanced"}},
       {"realtime", {"multiview_preset=realtime"}},
       {"realtime, temporal", {"multiview_preset=realtime", "multiview_temporal=true"}},
       {"fast", {"multiview_preset=fast"}},
-      {"paper2017", {"method=paper2017"}},
   };
+  return variants;
+}
+
+}  // namespace
+
+const std::vector<Variant>& ownMethods()
+{
+  static const std::vector<Variant> methods = []
+  {
+    std::vector<Variant> all = presets();
+    all.push_back({"paper2017", {"method=paper2017"}});
+    return all;
+  }();
   return methods;
 }
 
@@ -104,10 +118,10 @@ void reportConfidence(const std::vector<Result>& results, Table& table)
 }
 
 /// Each with a pipeline, threads and buffers of its own.
-std::vector<Contestant> ownContestants(int threads)
+std::vector<Contestant> contestantsOf(const std::vector<Variant>& variants, int threads)
 {
   std::vector<Contestant> own;
-  for (const Variant& variant : ownMethods())
+  for (const Variant& variant : variants)
   {
     own.push_back(makeContestant(variant, std::make_shared<Pipeline>(threads)));
   }
@@ -122,12 +136,11 @@ void measurePresets(const Settings& settings)
   table.header = {"scene",         "method",       "time, median (min..max) ms", "processor ms", "MSE x 100",
                   "BadPix 0.07 %", "BadPix 0.03 %"};
   nlohmann::json json = describeMachine(settings);
-  std::vector<Contestant> presets = ownContestants(settings.threads);
-  presets.pop_back();  // the 2017 method has none
+  const std::vector<Contestant> contestants = contestantsOf(presets(), settings.threads);
   for (const std::string& input : settings.inputs)
   {
     const Scene scene = readScene(input, settings.threads);
-    for (const Result& result : measure(scene, presets, settings.runs))
+    for (const Result& result : measure(scene, contestants, settings.runs))
     {
       const Evaluation& accuracy = result.evaluation;
       table.rows.push_back({result.scene, result.name, toText(result.timing),
@@ -165,7 +178,7 @@ void compareMethods(const Settings& settings)
                        "BadPix 0.07 % without a tenth (ideal)",
                        "AUSE of BadPix"};
   nlohmann::json json = describeMachine(settings);
-  const std::vector<Contestant> own = ownContestants(settings.threads);
+  const std::vector<Contestant> own = contestantsOf(ownMethods(), settings.threads);
   for (const std::string& input : settings.inputs)
   {
     const Scene scene = readScene(input, settings.threads);

@@ -1,11 +1,9 @@
 // What `./run report` shows besides the results of estimate: the views on the reference's row and column as
 // images, where they stand, and the disparity that OpenCV alone gives.
 
-#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +15,8 @@
 #include "light_field_depth/io/image_files.h"
 #include "light_field_depth/io/pfm.h"
 #include "opencv_baselines.h"
+#include "timing.h"
+#include "tools/tool_main.h"
 
 namespace light_field_depth::benchmark
 {
@@ -54,11 +54,10 @@ nlohmann::json solve(const fs::path& file, const std::function<cv::Mat()>& metho
 {
   try
   {
-    const auto start = std::chrono::steady_clock::now();
-    const cv::Mat disparity = method();
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    cv::Mat disparity;
+    const double milliseconds = millisecondsOf([&] { disparity = method(); });
     writePfm(file, disparity);
-    return {{"file", file.filename().string()}, {"ms", time.count()}};
+    return {{"file", file.filename().string()}, {"ms", milliseconds}};
   }
   catch (const std::exception& error)
   {
@@ -66,16 +65,8 @@ nlohmann::json solve(const fs::path& file, const std::function<cv::Mat()>& metho
   }
 }
 
-int run(int argc, char** argv)
+void writeReportData(const Arguments& arguments)
 {
-  CLI::App app{"Views and OpenCV's maps of a light field, for the page of ./run report."};
-  Arguments arguments;
-  app.add_option("--input", arguments.input, "folder of the light field")->required();
-  app.add_option("--output", arguments.output, "folder of the results")->required();
-  app.add_option("--range-min", arguments.range.min, "lowest disparity, pixels per step")->required();
-  app.add_option("--range-max", arguments.range.max, "highest disparity")->required();
-  CLI11_PARSE(app, argc, argv);
-
   const Dataset dataset = readDataset(arguments.input);
   const LightField cross = toEightBit(selectViews(dataset.light_field, ViewSelection::Cross));
   const fs::path folder = arguments.output;
@@ -87,7 +78,6 @@ int run(int argc, char** argv)
   data["opencv"]["OpenCV SGBM, widest pair"] =
       solve(folder / "opencv_sgbm.pfm", [&] { return semiGlobalWidestPair(cross, arguments.range); });
   writeFile(folder / "report_data.json", data.dump());
-  return 0;
 }
 
 }  // namespace
@@ -95,13 +85,12 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return light_field_depth::benchmark::run(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
+  using namespace light_field_depth;
+  CLI::App app("Views and OpenCV's maps of a light field, for the page of ./run report.", "report_data");
+  benchmark::Arguments arguments;
+  app.add_option("--input", arguments.input, "folder of the light field")->required();
+  app.add_option("--output", arguments.output, "folder of the results")->required();
+  app.add_option("--range-min", arguments.range.min, "lowest disparity, pixels per step")->required();
+  app.add_option("--range-max", arguments.range.max, "highest disparity")->required();
+  return runTool(app, argc, argv, [&] { benchmark::writeReportData(arguments); });
 }

@@ -35,6 +35,7 @@ COVERED_BY = {
     'posix_files': 'test_files',
     'result_files': 'test_tools',
     'result_publisher': 'test_depth_node',
+    'batch_fusion': 'test_dense_cloud',
     'surface_fusion': 'test_dense_cloud',
     'surface_map': 'test_dense_cloud',
     'surface_warp': 'test_dense_cloud',
@@ -43,6 +44,7 @@ COVERED_BY = {
     'view_messages': 'test_light_field_assembler',
     'view_mask': 'test_masks',
     'voxel_merger': 'test_point_cloud',
+    'yaml_parameter': 'test_view_array',
 }
 
 

@@ -1,44 +1,17 @@
 #include "tools/array_description.h"
 
-#include <cstddef>
 #include <sstream>
 
-#include <xmlrpcpp/XmlRpcValue.h>
 #include <yaml-cpp/yaml.h>
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/files.h"
+#include "light_field_depth/ros/yaml_parameter.h"
 
 namespace light_field_depth
 {
 namespace
 {
-/// What rosparam makes of a YAML file, as far as the description of an array needs it.
-XmlRpc::XmlRpcValue fromYaml(const YAML::Node& node)
-{
-  XmlRpc::XmlRpcValue value;
-  if (node.IsMap())
-  {
-    for (const auto& entry : node)
-    {
-      value[entry.first.as<std::string>()] = fromYaml(entry.second);
-    }
-    return value;
-  }
-  if (node.IsSequence())
-  {
-    value.setSize(static_cast<int>(node.size()));
-    for (std::size_t i = 0; i < node.size(); ++i)
-    {
-      value[static_cast<int>(i)] = fromYaml(node[i]);
-    }
-    return value;
-  }
-  int number = 0;
-  return YAML::convert<int>::decode(node, number) ? XmlRpc::XmlRpcValue(number)
-                                                  : XmlRpc::XmlRpcValue(node.as<std::string>());
-}
-
 template <class Value>
 void read(const YAML::Node& top, const std::string& field, Value& value)
 {
@@ -63,12 +36,13 @@ ArrayDescription readArrayDescription(const std::string& file)
   ArrayDescription description;
   try
   {
-    const YAML::Node top = YAML::Load(readFile(file));
+    const std::string text = readFile(file);
+    const YAML::Node top = YAML::Load(text);
     if (!top.IsMap() || !top["array"])
     {
       throw InputError("'" + file + "' has no 'array'; give a file as those in config/arrays are.");
     }
-    description.array = viewArrayFromParameter(fromYaml(top["array"]));
+    description.array = viewArrayFromParameter(parameterFromYaml(text)["array"]);
     ArrayCheckOptions& options = description.options;
     read(top, "sync_tolerance", options.sync_tolerance_s);
     read(top, "use_camera_info", options.use_camera_info);

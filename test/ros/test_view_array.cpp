@@ -1,12 +1,15 @@
 #include "light_field_depth/ros/view_array.h"
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <string>
 
 #include <gtest/gtest.h>
-#include <yaml-cpp/yaml.h>
 
 #include "expect_sentence.h"
+#include "light_field_depth/ros/yaml_parameter.h"
 
 namespace light_field_depth
 {
@@ -15,34 +18,9 @@ namespace
 using testing::expectSentence;
 using XmlRpc::XmlRpcValue;
 
-/// What rosparam makes of a YAML file.
-XmlRpcValue fromYaml(const YAML::Node& node)
-{
-  XmlRpcValue value;
-  if (node.IsMap())
-  {
-    for (const auto& entry : node)
-    {
-      value[entry.first.as<std::string>()] = fromYaml(entry.second);
-    }
-    return value;
-  }
-  if (node.IsSequence())
-  {
-    value.setSize(static_cast<int>(node.size()));
-    for (std::size_t i = 0; i < node.size(); ++i)
-    {
-      value[static_cast<int>(i)] = fromYaml(node[i]);
-    }
-    return value;
-  }
-  int number = 0;
-  return YAML::convert<int>::decode(node, number) ? XmlRpcValue(number) : XmlRpcValue(node.as<std::string>());
-}
-
 ViewArray parse(const std::string& yaml)
 {
-  return viewArrayFromParameter(fromYaml(YAML::Load(yaml)));
+  return viewArrayFromParameter(parameterFromYaml(yaml));
 }
 
 TEST(ViewArray, TakesAPatternAndALayout)
@@ -116,7 +94,9 @@ TEST(ViewArray, ReadsEveryFileThatIsShipped)
   {
     const std::string name = entry.path().stem().string();
     ASSERT_EQ(views.count(name), 1U) << name;
-    const XmlRpcValue parameters = fromYaml(YAML::LoadFile(entry.path().string()));
+    std::ifstream file(entry.path());
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    const XmlRpcValue parameters = parameterFromYaml(text);
     EXPECT_EQ(viewArrayFromParameter(parameters["array"]).views.size(), views.at(name)) << name;
     ++files;
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cloud/batch_fusion.h"
 #include "core/cloud/surface_fusion.h"
 #include "core/cloud/surface_map.h"
 #include "core/cloud/unprojection.h"
@@ -43,14 +44,6 @@ public:
 private:
   float focal_length_px_;
   cv::Point2f principal_point_px_;
-};
-
-/// The views of a batch, each with memory of its own.
-struct Slot
-{
-  cloud::FusionScratch scratch;
-  cloud::FusedView fused;
-  std::vector<DensePoint> points;
 };
 
 /// Points of one view, in single precision: a point is as exact as a float of metres.
@@ -162,54 +155,44 @@ void denseCloud(const LightField& light_field, const std::vector<ViewDisparity>&
     return;
   }
   const LightField shown = toEightBit(light_field);
-  const cloud::Tolerance tolerance = cloud::toleranceFor(shown, cloud::rangeOf(maps));
-  const std::vector<cloud::SurfaceMap> surfaces = cloud::makeSurfaceMaps(shown, maps, tolerance, pool);
+  const cloud::BatchFusion fusion(shown, maps, pool);
   std::optional<cloud::VoxelMerger> merger;
   if (options.voxel_size_m > 0.0F)
   {
     merger.emplace(options.voxel_size_m);
   }
-  // Batches of as many views as there are threads.
-  const std::size_t views = shown.views.size();
-  std::vector<Slot> slots(std::min(views, static_cast<std::size_t>(pool.threads())));
-  std::vector<cloud::VoxelMerger::Part> parts(merger ? slots.size() : 0);
-  for (std::size_t first = 0; first < views; first += slots.size())
-  {
-    const std::size_t count = std::min(slots.size(), views - first);
-    pool.parallelFor(0, static_cast<int>(count), 1,
-                     [&](int begin, int end)
-                     {
-                       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-                       {
-                         const View& view = shown.views[first + i];
-                         Slot& slot = slots[i];
-                         cloud::fuseView(surfaces, view, tolerance, options.min_confidence, slot.scratch,
-                                         slot.fused);
-                         unproject(slot.fused, view, *shown.calibration, slot.points);
-                         if (merger)
-                         {
-                           merger->sumUp(slot.points, parts[i]);
-                         }
-                       }
-                     });
-    if (merger)
-    {
-      merger->add(parts, count, pool);
-      continue;
-    }
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (!slots[i].points.empty())
+  std::vector<std::vector<DensePoint>> points(fusion.slots());
+  std::vector<cloud::VoxelMerger::Part> parts(merger ? fusion.slots() : 0);
+  fusion.run(
+      options.min_confidence,
+      [&](const View& view, std::size_t slot, const cloud::FusedView& fused)
       {
-        sink(slots[i].points.data(), slots[i].points.size());
-      }
-    }
-  }
+        unproject(fused, view, *shown.calibration, points[slot]);
+        if (merger)
+        {
+          merger->sumUp(points[slot], parts[slot]);
+        }
+      },
+      [&](std::size_t /*first*/, std::size_t count)
+      {
+        if (merger)
+        {
+          merger->add(parts, count, pool);
+          return;
+        }
+        for (std::size_t slot = 0; slot < count; ++slot)
+        {
+          if (!points[slot].empty())
+          {
+            sink(points[slot].data(), points[slot].size());
+          }
+        }
+      });
   if (merger)
   {
-    merger->emit(
-        static_cast<std::uint32_t>(std::min<std::size_t>(static_cast<std::size_t>(options.min_views), views)),
-        sink);
+    merger->emit(static_cast<std::uint32_t>(
+                     std::min<std::size_t>(static_cast<std::size_t>(options.min_views), shown.views.size())),
+                 sink);
   }
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloud/batch_fusion.h"
 #include "core/cloud/surface_fusion.h"
-#include "core/cloud/surface_map.h"
 
 namespace light_field_depth
 {
@@ -68,36 +68,29 @@ void fill(const View& view, float lowest, cv::Mat& disparity)
   disparity.setTo(lowest, disparity != disparity);  // the view shows nothing that any map does
 }
 
-struct Slot
+void makeMap(const cloud::FusedView& fused, const View& view, float lowest, ViewMap& map)
 {
-  cloud::FusionScratch scratch;
-  cloud::FusedView fused;
-  ViewMap map;
-};
-
-void makeMap(const View& view, float lowest, Slot& slot)
-{
-  slot.fused.disparity.copyTo(slot.map.disparity);
-  slot.fused.confidence.copyTo(slot.map.confidence);
-  slot.map.origin.create(slot.map.disparity.size(), CV_8UC1);
-  for (int y = 0; y < slot.map.disparity.rows; ++y)
+  fused.disparity.copyTo(map.disparity);
+  fused.confidence.copyTo(map.confidence);
+  map.origin.create(map.disparity.size(), CV_8UC1);
+  for (int y = 0; y < map.disparity.rows; ++y)
   {
-    const auto* const disparity = slot.map.disparity.ptr<float>(y);
-    const auto* const by_first = slot.fused.by_first.ptr<std::uint8_t>(y);
-    for (int x = 0; x < slot.map.disparity.cols; ++x)
+    const auto* const disparity = map.disparity.ptr<float>(y);
+    const auto* const by_first = fused.by_first.ptr<std::uint8_t>(y);
+    for (int x = 0; x < map.disparity.cols; ++x)
     {
       const bool filled = std::isnan(disparity[x]);
       const ViewPixel origin = filled             ? ViewPixel::Filled
                                : by_first[x] != 0 ? ViewPixel::Seen
                                                   : ViewPixel::Solved;
-      slot.map.origin.ptr<std::uint8_t>(y)[x] = static_cast<std::uint8_t>(origin);
+      map.origin.ptr<std::uint8_t>(y)[x] = static_cast<std::uint8_t>(origin);
       if (filled)
       {
-        slot.map.confidence.ptr<float>(y)[x] = 0.0F;
+        map.confidence.ptr<float>(y)[x] = 0.0F;
       }
     }
   }
-  fill(view, lowest, slot.map.disparity);
+  fill(view, lowest, map.disparity);
 }
 
 }  // namespace
@@ -110,32 +103,21 @@ void viewMaps(const LightField& light_field, const std::vector<ViewDisparity>& m
     return;
   }
   double lowest = 0.0;
-  const cloud::Tolerance tolerance = cloud::toleranceFor(light_field, cloud::rangeOf(maps));
   cv::minMaxIdx(maps.front().disparity, &lowest);
-  std::vector<cloud::SurfaceMap> surfaces = cloud::makeSurfaceMaps(light_field, maps, tolerance, pool);
-  const std::size_t views = light_field.views.size();
-  std::vector<Slot> slots(std::min(views, static_cast<std::size_t>(pool.threads())));
-  for (std::size_t first = 0; first < views; first += slots.size())
-  {
-    const std::size_t count = std::min(slots.size(), views - first);
-    pool.parallelFor(0, static_cast<int>(count), 1,
-                     [&](int begin, int end)
-                     {
-                       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-                       {
-                         const View& view = light_field.views[first + i];
-                         Slot& slot = slots[i];
-                         cloud::fuseView(surfaces, view, tolerance, options.min_confidence, slot.scratch,
-                                         slot.fused);
-                         slot.map.view_index = first + i;
-                         makeMap(view, static_cast<float>(lowest), slot);
-                       }
-                     });
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      sink(slots[i].map);
-    }
-  }
+  const cloud::BatchFusion fusion(light_field, maps, pool);
+  std::vector<ViewMap> view_maps(fusion.slots());
+  fusion.run(
+      options.min_confidence,
+      [&](const View& view, std::size_t slot, const cloud::FusedView& fused)
+      { makeMap(fused, view, static_cast<float>(lowest), view_maps[slot]); },
+      [&](std::size_t first, std::size_t count)
+      {
+        for (std::size_t slot = 0; slot < count; ++slot)
+        {
+          view_maps[slot].view_index = first + slot;
+          sink(view_maps[slot]);
+        }
+      });
 }
 
 }  // namespace light_field_depth
