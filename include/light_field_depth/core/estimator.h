@@ -33,6 +33,9 @@ struct DisparityEstimate
   /// view sees a point of a pair, so that the disparity is filled from what is certain around it: often
   /// right, never seen. Empty if the method does not tell.
   cv::Mat filled;
+  /// The same with those filled pixels that a plane holds, which goes on around them: they count as known in
+  /// depth and in the organised cloud, but no view measured them. The dense cloud takes none of them.
+  cv::Mat unmeasured;
   /// The range that was searched: the given one, or the one that was found.
   DisparityRange range;
   /// How many views took part.

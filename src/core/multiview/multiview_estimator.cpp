@@ -45,13 +45,20 @@ bool isLarge(const LightField& light_field)
   return light_field.size().area() > LARGE_PIXELS;
 }
 
-/// Confidence that is 0 where the disparity is filled: no such pixel enters the cloud.
-cv::Mat withoutFilled(const DisparityEstimate& estimate)
+/// Marks more pixels as filled. @param where CV_8UC1; empty: all
+void markFilled(DisparityEstimate& estimate, const cv::Mat& where = {})
+{
+  estimate.filled.setTo(255, where);
+  estimate.unmeasured.setTo(255, where);
+}
+
+/// Confidence that is 0 where no view measured the disparity: no such pixel enters the cloud.
+cv::Mat ofMeasured(const DisparityEstimate& estimate)
 {
   cv::Mat seen = estimate.confidence.clone();
-  if (!estimate.filled.empty())
+  if (!estimate.unmeasured.empty())
   {
-    seen.setTo(0.0F, estimate.filled);
+    seen.setTo(0.0F, estimate.unmeasured);
   }
   return seen;
 }
@@ -125,7 +132,7 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
 void MultiviewEstimator::solveOtherViews(const LightField& light_field, const LightField& chosen,
                                          std::size_t maps, RunContext& context, DisparityEstimate& estimate)
 {
-  estimate.view_disparities = {{light_field.reference_index, estimate.disparity, withoutFilled(estimate)}};
+  estimate.view_disparities = {{light_field.reference_index, estimate.disparity, ofMeasured(estimate)}};
   const std::vector<std::size_t> views = spreadViews(chosen, maps);
   if (views.size() < 2)
   {
@@ -151,7 +158,7 @@ void MultiviewEstimator::solveOtherViews(const LightField& light_field, const Li
         std::find_if(light_field.views.begin(), light_field.views.end(),
                      [&](const View& view) { return view.grid == chosen.views[views[i]].grid; });
     estimate.view_disparities.push_back(
-        {static_cast<std::size_t>(place - light_field.views.begin()), other.disparity, withoutFilled(other)});
+        {static_cast<std::size_t>(place - light_field.views.begin()), other.disparity, ofMeasured(other)});
   }
 }
 
@@ -261,12 +268,13 @@ void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) co
   memory_->solver.disparity().convertTo(estimate.disparity, CV_32F, 1.0 / unit);
   estimate.confidence = memory_->solver.confidence().clone();
   estimate.filled = memory_->solver.filled();
+  estimate.unmeasured = memory_->solver.unmeasured();
   if (estimate.range.min >= estimate.range.max)
   {
     // No disparity had any support: the views are of nothing, of noise or not of one scene, and agree by
     // smoothness alone.
     estimate.confidence.setTo(0.0F);
-    estimate.filled.setTo(255);
+    markFilled(estimate);
   }
 }
 
@@ -300,7 +308,7 @@ void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasur
                                 std::abs(other.steps.y) > std::abs(other.steps.x), {}, context.pool,
                                 estimate.disparity);
   estimate.confidence.setTo(0.0F, unconfirmed);
-  estimate.filled.setTo(255, unconfirmed);
+  markFilled(estimate, unconfirmed);
 }
 
 void MultiviewEstimator::upsample(const LightField& light_field, RunContext& context,
@@ -315,11 +323,14 @@ void MultiviewEstimator::upsample(const LightField& light_field, RunContext& con
                       confidence);
   estimate.disparity = disparity;
   estimate.confidence = confidence;
-  if (!estimate.filled.empty())
+  for (cv::Mat* const mask : {&estimate.filled, &estimate.unmeasured})
   {
-    cv::Mat filled;
-    cv::resize(estimate.filled, filled, image.size(), 0.0, 0.0, cv::INTER_NEAREST);
-    estimate.filled = filled;
+    if (!mask->empty())
+    {
+      cv::Mat full;
+      cv::resize(*mask, full, image.size(), 0.0, 0.0, cv::INTER_NEAREST);
+      *mask = full;
+    }
   }
 }
 

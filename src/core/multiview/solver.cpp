@@ -294,6 +294,11 @@ cv::Mat Solver::filled() const
   return findFilled(discount_.share(), disparity_);
 }
 
+cv::Mat Solver::unmeasured() const
+{
+  return findUnmeasured(discount_.share(), disparity_.size());
+}
+
 void Solver::rateConfidence(const SolverSettings& settings, RunContext& context)
 {
   if (settings.refinements == 0)

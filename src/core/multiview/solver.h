@@ -81,6 +81,8 @@ public:
   /// CV_8UC1 of the last run, 255 where the views say nothing above their noise, so that the disparity is
   /// filled from what lies around.
   cv::Mat filled() const;
+  /// The same whether a plane around holds the disparity or not.
+  cv::Mat unmeasured() const;
 
 private:
   void prepare(const LightField& light_field, const SolverSettings& settings, RunContext& context);

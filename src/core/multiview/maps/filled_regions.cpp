@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include <opencv2/imgproc.hpp>
+
 #include "core/multiview/refine/cell_sums.h"
 
 namespace light_field_depth::multiview
@@ -248,6 +250,13 @@ std::optional<DisparityPlane> planeAround(const Region& region, const FilledRegi
 }
 
 }  // namespace
+
+cv::Mat findUnmeasured(const cv::Mat& share, const cv::Size& size, const FilledRegionSettings& settings)
+{
+  cv::Mat pixels;
+  cv::resize(share < settings.below_share, pixels, share.size() * CELL_PX, 0.0, 0.0, cv::INTER_NEAREST);
+  return pixels(cv::Rect({}, size)).clone();
+}
 
 cv::Mat findFilled(const cv::Mat& share, const cv::Mat& disparity, const FilledRegionSettings& settings)
 {

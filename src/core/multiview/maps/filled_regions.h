@@ -23,6 +23,11 @@ struct FilledRegionSettings
   float tolerance_px = 0.1F;
 };
 
+/// Where the views themselves tell no disparity above their noise.
+/// @param share as for findFilled()
+/// @return CV_8UC1 of that size, 255 there
+cv::Mat findUnmeasured(const cv::Mat& share, const cv::Size& size, const FilledRegionSettings& settings = {});
+
 /// Where a disparity is filled and nothing tells that it is right: neither the views, nor a plane through
 /// most of what is known around the region, as around a blank part of a wall, a table or a ball. Of the
 /// bundled scene 4.7 instead of 9.8 % are filled, of blank halves of images 98 % and more (96 % where noise

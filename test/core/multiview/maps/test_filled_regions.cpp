@@ -56,6 +56,10 @@ TEST(FilledRegions, ABlankPartOfAWallIsHeldByTheWall)
 {
   const cv::Rect blank(6, 4, 10, 8);
   EXPECT_EQ(part(findFilled(blankIn(blank), disparityOf(slanted)), blank), 0.0);
+  const cv::Mat unmeasured = findUnmeasured(blankIn(blank), SIZE);
+  EXPECT_EQ(unmeasured.size(), SIZE);
+  EXPECT_EQ(part(unmeasured, blank), 1.0);
+  EXPECT_EQ(cv::countNonZero(unmeasured), blank.area() * CELL_PX * CELL_PX);
   // An object before a quarter of the outline does not matter; what the filling makes of it is not on the
   // wall.
   const auto with_object = [](int x, int y)
