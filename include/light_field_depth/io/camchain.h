@@ -14,12 +14,12 @@ namespace light_field_depth
 /// A raw camera of a rig, and what rectifies it to the plane of the rig; fields as in sensor_msgs/CameraInfo.
 struct RectifiedCamera
 {
-  std::string name;           ///< "cam0"
-  std::string topic;          ///< of its raw images; empty if the file names none
-  GridPosition grid;          ///< rows downwards, columns to the right, from 0
-  cv::Size size;              ///< of its images, pixels
-  cv::Matx33d camera_matrix;  ///< K
-  std::string distortion_model;
+  std::string name;                ///< "cam0"
+  std::string topic;               ///< of its raw images; empty if the file names none
+  GridPosition grid;               ///< rows downwards, columns to the right, from 0
+  cv::Size size;                   ///< of its images, pixels
+  cv::Matx33d camera_matrix;       ///< K
+  std::string distortion_model;    ///< "plumb_bob" or "equidistant"
   std::vector<double> distortion;  ///< D
   cv::Matx33d rectification;       ///< R: from the camera's axes to those of the plane
   cv::Matx34d projection;          ///< P, with the position relative to the reference view in metres
@@ -30,10 +30,10 @@ struct RectifiedCamera
 /// The cameras of a rig, rectified to one plane, row by row.
 struct RectifiedRig
 {
-  std::vector<RectifiedCamera> cameras;
-  std::size_t reference = 0;  ///< index of the view nearest the middle
-  double width_m = 0.0;       ///< of the rig
-  double off_plane_m = 0.0;   ///< the farthest distance of a camera from the plane
+  std::vector<RectifiedCamera> cameras;  ///< row by row
+  std::size_t reference = 0;             ///< index of the view nearest the middle
+  double width_m = 0.0;                  ///< of the rig
+  double off_plane_m = 0.0;              ///< the farthest distance of a camera from the plane
 };
 
 /// Reads a camera chain of Kalibr (camchain.yaml: cam0, cam1, ... with camera_model pinhole, intrinsics,

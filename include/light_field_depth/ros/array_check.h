@@ -46,6 +46,7 @@ struct ArrayCheckOptions
 class ArrayCheck
 {
 public:
+  /// @param array whose topics are looked at
   ArrayCheck(ViewArray array, const ArrayCheckOptions& options);
   ~ArrayCheck();
   ArrayCheck(const ArrayCheck&) = delete;

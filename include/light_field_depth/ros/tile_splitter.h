@@ -10,8 +10,8 @@ namespace light_field_depth
 /// How many rows and columns of equal views one image holds.
 struct TileGrid
 {
-  int rows = 1;
-  int columns = 1;
+  int rows = 1;     ///< one below the other
+  int columns = 1;  ///< beside each other
 };
 
 /// One view of an image that holds many, with its header. The pixels are copied once, as they are.
