@@ -56,7 +56,9 @@ struct Bounds
 /// Bounds what is not NaN: what the mask of the view leaves. The whole map where that is nothing.
 cv::Rect knownWindow(const cv::Mat& disparity)
 {
-  const cv::Rect window = cv::boundingRect(disparity == disparity);
+  cv::Mat known;  // no NaN
+  cv::compare(disparity, disparity, known, cv::CMP_EQ);
+  const cv::Rect window = cv::boundingRect(known);
   return window.empty() ? cv::Rect({}, disparity.size()) : window;
 }
 
@@ -219,7 +221,9 @@ sensor_msgs::ImagePtr disparityColorMessage(const std_msgs::Header& header, cons
   estimate.disparity.convertTo(levels, CV_8UC1, scale, -scale * estimate.range.min);
   cv::Mat pixels = pixelsOf(*message, CV_8UC3);
   cv::applyColorMap(levels, pixels, cv::COLORMAP_TURBO);
-  pixels.setTo(cv::Scalar(), estimate.disparity != estimate.disparity);  // NaN: masked
+  cv::Mat masked;  // NaN
+  cv::compare(estimate.disparity, estimate.disparity, masked, cv::CMP_NE);
+  pixels.setTo(cv::Scalar(), masked);
   return message;
 }
 

@@ -120,7 +120,8 @@ SurfaceMap makeSurfaceMap(const ViewDisparity& map, const View& view, const Tole
                                               : map.confidence.clone();
   // What is no number takes no part, and must not spread through the windows.
   cv::Mat known = map.disparity;
-  const cv::Mat unknown = map.disparity != map.disparity;
+  cv::Mat unknown;
+  cv::compare(map.disparity, map.disparity, unknown, cv::CMP_NE);
   if (cv::countNonZero(unknown) > 0)
   {
     known = map.disparity.clone();

@@ -65,7 +65,9 @@ void fill(const View& view, float lowest, cv::Mat& disparity)
   const bool along_rows = std::abs(view.steps.x) >= std::abs(view.steps.y);
   along_rows ? fillRows(disparity) : fillColumns(disparity);
   along_rows ? fillColumns(disparity) : fillRows(disparity);
-  disparity.setTo(lowest, disparity != disparity);  // the view shows nothing that any map does
+  cv::Mat unknown;  // where the view shows nothing that any map does: NaN
+  cv::compare(disparity, disparity, unknown, cv::CMP_NE);
+  disparity.setTo(lowest, unknown);
 }
 
 void makeMap(const cloud::FusedView& fused, const View& view, float lowest, ViewMap& map)
