@@ -46,7 +46,7 @@ sensor_msgs::PointCloud2Ptr CloudTransformer::transform(const sensor_msgs::Point
                      "', so the clouds are left out: " + error.what() +
                      " Publish that transform, or leave target_frame empty.");
   }
-  const auto transformed = boost::make_shared<sensor_msgs::PointCloud2>();
+  auto transformed = boost::make_shared<sensor_msgs::PointCloud2>();
   pcl_ros::transformPointCloud(matrixOf(transform.transform), cloud, *transformed);
   transformed->header.frame_id = target_frame_;
   transformed->header.stamp = cloud.header.stamp;

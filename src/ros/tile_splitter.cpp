@@ -63,7 +63,7 @@ sensor_msgs::ImagePtr tileOf(const sensor_msgs::Image& image, const TileGrid& gr
 {
   const std::size_t pixel_bytes = bytesPerPixel(image.encoding);
   checkImage(image, grid, pixel_bytes);
-  const auto tile = boost::make_shared<sensor_msgs::Image>();
+  auto tile = boost::make_shared<sensor_msgs::Image>();
   tile->header = image.header;
   tile->encoding = image.encoding;
   tile->is_bigendian = image.is_bigendian;

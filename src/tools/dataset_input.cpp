@@ -51,18 +51,24 @@ Calibration givenCalibration(const DatasetInputOptions& options, const cv::Size&
   return calibration;
 }
 
+std::string sharedTopicText(const std::string& setting, const GridPosition& one, const GridPosition& other,
+                            const std::string& topic)
+{
+  return setting + " gives the views " + toString(one) + " and " + toString(other) + " one topic, " + topic +
+         "; put {row} and {column} into it.";
+}
+
 /// Nobody could tell the views apart.
 void checkTopics(const LightField& light_field, const std::string& option, const std::string& pattern)
 {
+  const std::string setting = option + " '" + pattern + "'";
   std::map<std::string, GridPosition> views;
   for (const View& view : light_field.views)
   {
     const auto [other, is_new] = views.try_emplace(topicFromPattern(pattern, view.grid), view.grid);
     if (!is_new)
     {
-      throw InputError(option + " '" + pattern + "' gives the views " + toString(other->second) + " and " +
-                       toString(view.grid) + " one topic, " + other->first +
-                       "; put {row} and {column} into it.");
+      throw InputError(sharedTopicText(setting, other->second, view.grid, other->first));
     }
   }
 }

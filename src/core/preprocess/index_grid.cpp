@@ -60,7 +60,7 @@ double foldAt(const std::vector<cv::Mat>& thumbnails, const std::vector<double>&
     for (int away = 1; away < length && end + away < count; ++away)
     {
       facing += difference(thumbnails, end - 1 - away, end + away);
-      usual += by_lag[static_cast<std::size_t>(2 * away + 1)];
+      usual += by_lag[2 * static_cast<std::size_t>(away) + 1];
     }
   }
   return usual > 0.0 ? facing / usual : 1.0;

@@ -325,7 +325,7 @@ ViewPlaces checkViewPlaces(const LightField& light_field, ThreadPool& pool, cons
   {
     return places;
   }
-  const ViewPlaces second = checkFrom(seenFrom(light_field, neighbourOf(light_field)), pool, options);
+  ViewPlaces second = checkFrom(seenFrom(light_field, neighbourOf(light_field)), pool, options);
   if (second.checked && shareOfDoubts(second, light_field) < options.min_shuffled_share)
   {
     return second;
