@@ -42,23 +42,26 @@ void adaptToNoise(float noise_sigma, SolverSettings& settings)
   const float blur = std::min(BLUR_BASE_PX + BLUR_PER_SIGMA_PX * noise_sigma, MAX_BLUR_PX);
   settings.blur_sigma_px = blur;
   const float left = noise_sigma / (2.0F * std::sqrt(static_cast<float>(CV_PI)) * blur);
-  settings.cost.truncation =
-      std::clamp(cvRound(TRUNCATION_PER_SIGMA * left), settings.cost.truncation, MAX_TRUNCATION);
-  settings.cost.unseen_penalty = std::max(settings.cost.unseen_penalty, settings.cost.truncation);
+  settings.search.cost.truncation =
+      std::clamp(cvRound(TRUNCATION_PER_SIGMA * left), settings.search.cost.truncation, MAX_TRUNCATION);
+  settings.search.cost.unseen_penalty =
+      std::max(settings.search.cost.unseen_penalty, settings.search.cost.truncation);
   settings.label_step_px = std::max(settings.label_step_px, NOISY_LABEL_STEP_PX);
-  settings.paths.small_change_penalty += cvRound(PENALTY_PER_SIGMA * left);
+  settings.search.paths.small_change_penalty += cvRound(PENALTY_PER_SIGMA * left);
   settings.boundary_pixels.min_contrast += CONTRAST_PER_SIGMA * left;
   if (noise_sigma >= STRONG_SIGMA)
   {
-    settings.linearization.window_radius = WIDE_WINDOW_RADIUS;
-    settings.last_small_change_share = 1.0F;
-    settings.last_large_change_share = 1.0F;
+    settings.refinement.linearization.window_radius = WIDE_WINDOW_RADIUS;
+    settings.search.last_small_change_share = 1.0F;
+    settings.search.last_large_change_share = 1.0F;
     // Worth their time only here, and only where colour is worth its time.
     if (!settings.grey_search)
     {
-      settings.visibility_passes =
-          settings.visibility_passes > 0 ? std::max(settings.visibility_passes, STRONG_NOISE_PASSES) : 0;
-      settings.refinements += settings.refinements > 0 ? 1 : 0;
+      settings.search.visibility_passes =
+          settings.search.visibility_passes > 0
+              ? std::max(settings.search.visibility_passes, STRONG_NOISE_PASSES)
+              : 0;
+      settings.refinement.refinements += settings.refinement.refinements > 0 ? 1 : 0;
     }
   }
 }

@@ -45,8 +45,8 @@ LightField turnedRound(const LightField& pair)
 
 void adaptToPair(SolverSettings& settings)
 {
-  settings.paths.large_change_penalty *= LARGE_CHANGE_FACTOR;
-  settings.cost.unseen_penalty = settings.cost.truncation / UNSEEN_DIVISOR;
+  settings.search.paths.large_change_penalty *= LARGE_CHANGE_FACTOR;
+  settings.search.cost.unseen_penalty = settings.search.cost.truncation / UNSEEN_DIVISOR;
 }
 
 }  // namespace light_field_depth::multiview

@@ -44,16 +44,16 @@ SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures
   settings.label_step_px = options.label_step_px;
   settings.grey_search =
       options.preset == MultiviewPreset::Realtime || options.preset == MultiviewPreset::Fast;
-  settings.paths.small_change_penalty = options.small_change_penalty;
-  settings.paths.large_change_penalty = options.large_change_penalty;
-  settings.visibility_passes = options.visibility_passes;
-  settings.fuse_background = options.background_fusion && !settings.grey_search;
-  settings.keep_thin_structures = options.thin_structures;
+  settings.search.paths.small_change_penalty = options.small_change_penalty;
+  settings.search.paths.large_change_penalty = options.large_change_penalty;
+  settings.search.visibility_passes = options.visibility_passes;
+  settings.search.fuse_background = options.background_fusion && !settings.grey_search;
+  settings.search.keep_thin_structures = options.thin_structures;
   settings.decide_boundary_pixels = options.boundary_pixels;
-  settings.refinements = options.refinements;
-  settings.linearization.brightness_slope = options.brightness_slope;
-  settings.smoothing.strength = options.refinement_smoothness;
-  settings.detect_changes = options.temporal;
+  settings.refinement.refinements = options.refinements;
+  settings.refinement.linearization.brightness_slope = options.brightness_slope;
+  settings.refinement.smoothing.strength = options.refinement_smoothness;
+  settings.search.detect_changes = options.temporal;
   adaptToNoise(measures.noise_sigma, settings);
   if (isPair(light_field))
   {

@@ -22,10 +22,10 @@ TEST(AdaptToNoise, CleanViewsLeaveTheSettingsAlone)
   const SolverSettings after = adapted(1.1F);
   EXPECT_FLOAT_EQ(after.noise_sigma, 1.1F);
   EXPECT_EQ(after.blur_sigma_px, 0.0);
-  EXPECT_EQ(after.cost.truncation, before.cost.truncation);
-  EXPECT_EQ(after.paths.small_change_penalty, before.paths.small_change_penalty);
-  EXPECT_EQ(after.linearization.window_radius, before.linearization.window_radius);
-  EXPECT_EQ(after.visibility_passes, before.visibility_passes);
+  EXPECT_EQ(after.search.cost.truncation, before.search.cost.truncation);
+  EXPECT_EQ(after.search.paths.small_change_penalty, before.search.paths.small_change_penalty);
+  EXPECT_EQ(after.refinement.linearization.window_radius, before.refinement.linearization.window_radius);
+  EXPECT_EQ(after.search.visibility_passes, before.search.visibility_passes);
 }
 
 TEST(AdaptToNoise, TheBlurGrowsAndWhatItLeavesRaisesTruncationAndPenalty)
@@ -35,10 +35,11 @@ TEST(AdaptToNoise, TheBlurGrowsAndWhatItLeavesRaisesTruncationAndPenalty)
   EXPECT_NEAR(after.blur_sigma_px, 0.83, 1e-6);
   // A Gaussian of sigma s leaves 1 / (2 sqrt(pi) s) of white noise.
   const double left = 5.0 / (2.0 * std::sqrt(CV_PI) * 0.83);
-  EXPECT_EQ(after.paths.small_change_penalty, before.paths.small_change_penalty + cvRound(10.0 * left));
-  EXPECT_EQ(after.cost.truncation, 30) << "17 would be enough, and it never falls";
-  EXPECT_EQ(adapted(40.0F).cost.truncation, 60) << "the most";
-  EXPECT_EQ(adapted(40.0F).cost.unseen_penalty, 60) << "unseen is never better than badly seen";
+  EXPECT_EQ(after.search.paths.small_change_penalty,
+            before.search.paths.small_change_penalty + cvRound(10.0 * left));
+  EXPECT_EQ(after.search.cost.truncation, 30) << "17 would be enough, and it never falls";
+  EXPECT_EQ(adapted(40.0F).search.cost.truncation, 60) << "the most";
+  EXPECT_EQ(adapted(40.0F).search.cost.unseen_penalty, 60) << "unseen is never better than badly seen";
   EXPECT_NEAR(adapted(40.0F).blur_sigma_px, 1.2, 1e-6);
 }
 
@@ -52,22 +53,22 @@ TEST(AdaptToNoise, LabelsAreNoFinerThanNoiseLetsSee)
 
 TEST(AdaptToNoise, StrongNoiseWidensTheWindowAndRepeatsStages)
 {
-  EXPECT_EQ(adapted(2.4F).linearization.window_radius, 2);
+  EXPECT_EQ(adapted(2.4F).refinement.linearization.window_radius, 2);
   const SolverSettings strong = adapted(2.6F);
-  EXPECT_EQ(strong.linearization.window_radius, 4);
-  EXPECT_EQ(strong.visibility_passes, 3);
-  EXPECT_EQ(strong.refinements, 3);
-  EXPECT_FLOAT_EQ(strong.last_small_change_share, 1.0F);
+  EXPECT_EQ(strong.refinement.linearization.window_radius, 4);
+  EXPECT_EQ(strong.search.visibility_passes, 3);
+  EXPECT_EQ(strong.refinement.refinements, 3);
+  EXPECT_FLOAT_EQ(strong.search.last_small_change_share, 1.0F);
   SolverSettings grey;
   grey.grey_search = true;
-  EXPECT_EQ(adapted(2.6F, grey).linearization.window_radius, 4);
-  EXPECT_EQ(adapted(2.6F, grey).visibility_passes, 1);
-  EXPECT_EQ(adapted(2.6F, grey).refinements, 2);
+  EXPECT_EQ(adapted(2.6F, grey).refinement.linearization.window_radius, 4);
+  EXPECT_EQ(adapted(2.6F, grey).search.visibility_passes, 1);
+  EXPECT_EQ(adapted(2.6F, grey).refinement.refinements, 2);
   SolverSettings without;
-  without.visibility_passes = 0;
-  without.refinements = 0;
-  EXPECT_EQ(adapted(2.6F, without).visibility_passes, 0) << "what was switched off stays off";
-  EXPECT_EQ(adapted(2.6F, without).refinements, 0);
+  without.search.visibility_passes = 0;
+  without.refinement.refinements = 0;
+  EXPECT_EQ(adapted(2.6F, without).search.visibility_passes, 0) << "what was switched off stays off";
+  EXPECT_EQ(adapted(2.6F, without).refinement.refinements, 0);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ TEST(Solver, RunsTheStagesThatTheSettingsName)
   ThreadPool pool(2);
   RunContext context(pool);
   SolverSettings settings = settingsOfScene();
-  settings.visibility_passes = 0;
-  settings.fuse_background = false;
+  settings.search.visibility_passes = 0;
+  settings.search.fuse_background = false;
   settings.decide_boundary_pixels = false;
   Solver solver;
   solver.run(scene().light_field, settings, context);
@@ -86,7 +86,7 @@ TEST(Solver, TheNextFrameFollowsAndAnotherSceneDoesNot)
   ThreadPool pool(2);
   RunContext context(pool);
   SolverSettings settings = settingsOfScene();
-  settings.detect_changes = true;
+  settings.search.detect_changes = true;
   Solver solver;
   solver.run(scene().light_field, settings, context);
   EXPECT_TRUE(solver.follow(scene().light_field, settings, context));

@@ -46,15 +46,15 @@ TEST(SolverSettings, PresetsChooseColourLabelsAndRepetitions)
   const SolverSettings quality = of(MultiviewPreset::Quality);
   EXPECT_FALSE(quality.grey_search);
   EXPECT_FLOAT_EQ(quality.label_step_px, 1.0F / 16.0F);
-  EXPECT_EQ(quality.visibility_passes, 2);
-  EXPECT_EQ(quality.refinements, 3);
-  EXPECT_TRUE(quality.fuse_background);
+  EXPECT_EQ(quality.search.visibility_passes, 2);
+  EXPECT_EQ(quality.refinement.refinements, 3);
+  EXPECT_TRUE(quality.search.fuse_background);
   const SolverSettings realtime = of(MultiviewPreset::Realtime);
   EXPECT_TRUE(realtime.grey_search);
   EXPECT_FLOAT_EQ(realtime.label_step_px, 1.0F / 8.0F);
-  EXPECT_EQ(realtime.visibility_passes, 1);
-  EXPECT_EQ(realtime.refinements, 1);
-  EXPECT_FALSE(realtime.fuse_background);
+  EXPECT_EQ(realtime.search.visibility_passes, 1);
+  EXPECT_EQ(realtime.refinement.refinements, 1);
+  EXPECT_FALSE(realtime.search.fuse_background);
 }
 
 TEST(SolverSettings, OptionsAreHandedOn)
@@ -68,13 +68,13 @@ TEST(SolverSettings, OptionsAreHandedOn)
   options.refinement_smoothness = 50.0F;
   options.temporal = true;
   const SolverSettings settings = solverSettings(options, {}, row(9), 1.0);
-  EXPECT_EQ(settings.paths.small_change_penalty, 17);
-  EXPECT_EQ(settings.paths.large_change_penalty, 900);
-  EXPECT_TRUE(settings.keep_thin_structures);
+  EXPECT_EQ(settings.search.paths.small_change_penalty, 17);
+  EXPECT_EQ(settings.search.paths.large_change_penalty, 900);
+  EXPECT_TRUE(settings.search.keep_thin_structures);
   EXPECT_FALSE(settings.decide_boundary_pixels);
-  EXPECT_FALSE(settings.linearization.brightness_slope);
-  EXPECT_FLOAT_EQ(settings.smoothing.strength, 50.0F);
-  EXPECT_TRUE(settings.detect_changes);
+  EXPECT_FALSE(settings.refinement.linearization.brightness_slope);
+  EXPECT_FLOAT_EQ(settings.refinement.smoothing.strength, 50.0F);
+  EXPECT_TRUE(settings.search.detect_changes);
 }
 
 TEST(SolverSettings, NoiseAndPairsAreAdaptedTo)
@@ -83,8 +83,8 @@ TEST(SolverSettings, NoiseAndPairsAreAdaptedTo)
   noisy.noise_sigma = 5.0F;
   EXPECT_GT(solverSettings({}, noisy, row(9), 1.0).blur_sigma_px, 0.8);
   const SolverSettings pair = solverSettings({}, {}, row(2), 0.25);
-  EXPECT_EQ(pair.paths.large_change_penalty, 4 * 1200);
-  EXPECT_EQ(pair.cost.unseen_penalty, pair.cost.truncation / 2);
+  EXPECT_EQ(pair.search.paths.large_change_penalty, 4 * 1200);
+  EXPECT_EQ(pair.search.cost.unseen_penalty, pair.search.cost.truncation / 2);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/base/scratch_pool.h"
-#include "core/multiview/refine/refinement.h"
+#include "core/multiview/refine/linearizer.h"
 #include "light_field_depth/core/thread_pool.h"
 
 namespace light_field_depth::multiview

@@ -1,4 +1,4 @@
-#include "core/multiview/refine/refinement.h"
+#include "core/multiview/refine/linearizer.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "core/multiview/refine/refinement.h"
+#include "core/multiview/refine/linearizer.h"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ double meanError(const Linearization& linear)
          TEXTURED.area();
 }
 
-TEST(Refinement, TheMinimumIsATenthOfAPixelAway)
+TEST(Linearizer, TheMinimumIsATenthOfAPixelAway)
 {
   for (const float start : {TRUTH_PX - 0.1F, TRUTH_PX, TRUTH_PX + 0.1F})
   {
@@ -65,7 +65,7 @@ TEST(Refinement, TheMinimumIsATenthOfAPixelAway)
   }
 }
 
-TEST(Refinement, NoStepIsLargerThanTheApproximationHolds)
+TEST(Linearizer, NoStepIsLargerThanTheApproximationHolds)
 {
   LinearizationSettings settings;
   const Linearization linear = linearized(wall(), TRUTH_PX + 0.5F);
@@ -76,7 +76,7 @@ TEST(Refinement, NoStepIsLargerThanTheApproximationHolds)
   EXPECT_LE(most, TRUTH_PX + 0.5F + settings.max_step_px + 1e-5F);
 }
 
-TEST(Refinement, TextureHasWeightAndFlatPartsHaveNone)
+TEST(Linearizer, TextureHasWeightAndFlatPartsHaveNone)
 {
   const Linearization linear = linearized(wall(), TRUTH_PX);
   EXPECT_GT(cv::mean(linear.weight(TEXTURED))[0], 100.0);
@@ -85,7 +85,7 @@ TEST(Refinement, TextureHasWeightAndFlatPartsHaveNone)
   EXPECT_LT(cv::mean(linear.disagreement(TEXTURED))[0], 0.03);
 }
 
-TEST(Refinement, BrightnessThatChangesWithThePositionIsToldFromDisparity)
+TEST(Linearizer, BrightnessThatChangesWithThePositionIsToldFromDisparity)
 {
   LinearizationSettings with;
   with.match_scale = 100.0F;
@@ -99,7 +99,7 @@ TEST(Refinement, BrightnessThatChangesWithThePositionIsToldFromDisparity)
   EXPECT_GT(meanError(linearized(glossy, TRUTH_PX, 2, without)), 1.5 * error);
 }
 
-TEST(Refinement, IsTheSameOnAnyNumberOfThreads)
+TEST(Linearizer, IsTheSameOnAnyNumberOfThreads)
 {
   const Linearization one = linearized(wall(), 0.3F, 1);
   const Linearization three = linearized(wall(), 0.3F, 3);

@@ -1,0 +1,76 @@
+#include "core/multiview/refine/map_refinement.h"
+
+namespace light_field_depth::multiview
+{
+namespace
+{
+/// How far a refined disparity may lie outside the range of the search, in pixels: slopes of surfaces at the
+/// end of the range go on.
+constexpr float REACH_PX = 1.0F;
+/// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
+constexpr int ROWS_PER_CHUNK = 32;
+
+/// Where nothing is known and the image cuts a line of pixels off from the others, the equations of the
+/// smoothing are singular but for rounding: what leaves the range of the search, or is no number, is as it
+/// was at the start.
+void keepInRange(const DisparityRange& range, const cv::Mat& start, ThreadPool& pool, cv::Mat& disparity)
+{
+  const float low = range.min - REACH_PX;
+  const float high = range.max + REACH_PX;
+  pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
+                   [&](int first, int last)
+                   {
+                     for (int y = first; y < last; ++y)
+                     {
+                       auto* const row = disparity.ptr<float>(y);
+                       const auto* const at_start = start.ptr<float>(y);
+                       for (int x = 0; x < disparity.cols; ++x)
+                       {
+                         const bool kept = row[x] >= low && row[x] <= high;
+                         row[x] = kept ? row[x] : at_start[x];
+                       }
+                     }
+                   });
+}
+
+}  // namespace
+
+void MapRefinement::run(const RefinementInput& input, const RefinementSettings& settings, RunContext& context,
+                        cv::Mat& disparity)
+{
+  disparity.copyTo(start_);
+  {
+    const StageTimer timer(context, "noise");
+    measureViewNoise(input.views, disparity, context.pool, noise_);
+  }
+  if (settings.refinements == 0)
+  {
+    linearize(input, settings, context, disparity);
+    return;
+  }
+  SmoothingSettings smoothing = settings.smoothing;
+  smoothing.strength *= 1.0F + settings.strength_per_variance * noise_.value_variance;
+  {
+    const StageTimer timer(context, "smooth");
+    smoother_.setGuide(input.guide, smoothing, context.pool);
+  }
+  for (int i = 1; i <= settings.refinements; ++i)
+  {
+    linearize(input, settings, context, disparity);
+    const StageTimer timer(context, "smooth");
+    smoothing.follow_slopes = i == settings.refinements;
+    smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity);
+    keepInRange(input.range, start_, context.pool, disparity);
+  }
+}
+
+void MapRefinement::linearize(const RefinementInput& input, const RefinementSettings& settings,
+                              RunContext& context, const cv::Mat& disparity)
+{
+  const StageTimer timer(context, "linearize");
+  linearizer_.run(input.views, disparity, noise_.local_slope_variance, settings.linearization, context.pool,
+                  linearization_);
+  discount_.apply(settings.noise_discount, context.pool, linearization_);
+}
+
+}  // namespace light_field_depth::multiview

@@ -1,0 +1,62 @@
+#ifndef LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_MAP_REFINEMENT_H
+#define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_MAP_REFINEMENT_H
+
+#include <opencv2/core.hpp>
+
+#include "core/light_field/view_set.h"
+#include "core/multiview/refine/edge_aware_smoothing.h"
+#include "core/multiview/refine/linearizer.h"
+#include "core/multiview/refine/noise_discount.h"
+#include "core/preprocess/view_noise.h"
+#include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/run_context.h"
+
+namespace light_field_depth::multiview
+{
+struct RefinementSettings
+{
+  int refinements = 2;
+  LinearizationSettings linearization;
+  NoiseDiscountSettings noise_discount;
+  SmoothingSettings smoothing;
+  /// Links strengthen by this part for each squared grey level of noise that the views are left with.
+  float strength_per_variance = 0.75F;
+};
+
+/// What is refined.
+struct RefinementInput
+{
+  const ViewSet& views;
+  const PlanarImage& guide;  ///< the reference; its edges weaken the links of pixels
+  DisparityRange range;      ///< of the search
+};
+
+/// Improves a map below the distance of labels: linearises the views about it, takes what noise adds off the
+/// weight of the data, and smooths; repeatedly. Keeps its buffers; one call at a time.
+class MapRefinement
+{
+public:
+  /// @param disparity CV_32FC1, px, finite: start and result
+  void run(const RefinementInput& input, const RefinementSettings& settings, RunContext& context,
+           cv::Mat& disparity);
+
+  /// Of the last refinement of the last run; of its start where the settings ask for none.
+  const Linearization& linearization() const { return linearization_; }
+  /// CV_32FC1, in cells of CELL_PX (cell_sums.h): the part of the data that counts about each, 0..1.
+  const cv::Mat& share() const { return discount_.share(); }
+
+private:
+  void linearize(const RefinementInput& input, const RefinementSettings& settings, RunContext& context,
+                 const cv::Mat& disparity);
+
+  Linearizer linearizer_;
+  Linearization linearization_;
+  ViewNoise noise_;
+  NoiseDiscount discount_;
+  EdgeAwareSmoother smoother_;
+  cv::Mat start_;  // CV_32FC1, px
+};
+
+}  // namespace light_field_depth::multiview
+
+#endif  // LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_REFINE_MAP_REFINEMENT_H
