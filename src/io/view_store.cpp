@@ -98,7 +98,7 @@ cv::Mat ViewStore::read(const ViewFile& view, cv::Mat& mask) const
   {
     return extractPart(tables_.at(view.path), view.part);
   }
-  const cv::Mat image = readImage(view.path, &mask);
+  cv::Mat image = readImage(view.path, &mask);
   if (!view.warp)
   {
     return image;

@@ -88,7 +88,8 @@ std::string describePresetChange(const PipelineOptions& before, const PipelineOp
   {
     if (name != "multiview_preset" && old.at(name) != value)
     {
-      changes += (changes.empty() ? ": " : ", ") + name + " " + value + " (was " + old.at(name) + ")";
+      changes.append(changes.empty() ? ": " : ", ").append(name).append(" ").append(value);
+      changes.append(" (was ").append(old.at(name)).append(")");
     }
   }
   return "The preset is now " + toString(after.multiview.preset) + changes + ".";
