@@ -131,18 +131,37 @@ void aggregateTileSimd(const PathTile& tile)
   }
 }
 
-/// A square block of one vector a row: rows `stride` apart in the source and in the target. As many perfect
-/// shuffles as the side has bits transpose it.
-template <typename Value, std::size_t SIDE>
-HWY_INLINE void transposeBlock(const Value* source, std::ptrdiff_t stride, Value* target)
+/// As many rows as a vector has parts of 128 bits, `step` apart, a part of each.
+template <typename Tag, typename Value = hn::TFromD<Tag>>
+HWY_INLINE hn::Vec<Tag> loadParts(Tag tag, const Value* source, std::ptrdiff_t step)
 {
-  const hn::FixedTag<Value, SIDE> tag;
-  using Row = hn::Vec<decltype(tag)>;
+  constexpr std::size_t parts = hn::MaxLanes(Tag()) * sizeof(Value) / 16;
+  if constexpr (parts <= 1)
+  {
+    return hn::LoadU(tag, source);
+  }
+  else
+  {
+    const hn::Half<Tag> half;
+    return hn::Combine(tag, loadParts(half, source + static_cast<std::ptrdiff_t>(parts / 2) * step, step),
+                       loadParts(half, source, step));
+  }
+}
+
+/// Square blocks of 128 bits a row, one below the other, one for each such part of a vector: side by side in
+/// the target. Rows are `stride` apart in the source and in the target. As many perfect shuffles as the side
+/// has bits transpose a block.
+template <typename Tag, std::size_t SIDE, typename Value = hn::TFromD<Tag>>
+HWY_INLINE void transposeBlocks(const Value* source, std::ptrdiff_t stride, Value* target)
+{
+  const Tag tag;
+  using Row = hn::Vec<Tag>;
   Row rows[SIDE];
   Row mixed[SIDE];
   for (std::size_t i = 0; i < SIDE; ++i)
   {
-    rows[i] = hn::LoadU(tag, source + static_cast<std::ptrdiff_t>(i) * stride);
+    rows[i] = loadParts(tag, source + static_cast<std::ptrdiff_t>(i) * stride,
+                        static_cast<std::ptrdiff_t>(SIDE) * stride);
   }
   Row* from = rows;
   Row* to = mixed;
@@ -162,19 +181,22 @@ HWY_INLINE void transposeBlock(const Value* source, std::ptrdiff_t stride, Value
 }
 
 template <typename Value>
-HWY_INLINE void transposeBlocks(const Value* source, int labels, Value* target)
+HWY_INLINE void transposeLabels(const Value* source, int labels, Value* target)
 {
+  // Wider vectors would do as many shuffles at half the rate.
+  using Tag = hn::CappedTag<Value, 32 / sizeof(Value)>;
   constexpr int side = static_cast<int>(16 / sizeof(Value));
+  constexpr int lines = static_cast<int>(hn::MaxLanes(Tag()));
   const std::ptrdiff_t line_size = static_cast<std::ptrdiff_t>(labels) * TILE_PX;
   for (int label = 0; label < labels; ++label)
   {
     const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(label) * TILE_PX;
-    for (int line = 0; line < TILE_PX; line += side)
+    for (int line = 0; line < TILE_PX; line += lines)
     {
       for (int i = 0; i < TILE_PX; i += side)
       {
-        transposeBlock<Value, side>(source + line * line_size + offset + i, line_size,
-                                    target + i * line_size + offset + line);
+        transposeBlocks<Tag, side>(source + line * line_size + offset + i, line_size,
+                                   target + i * line_size + offset + line);
       }
     }
   }
@@ -182,12 +204,12 @@ HWY_INLINE void transposeBlocks(const Value* source, int labels, Value* target)
 
 void transposeBytesSimd(const std::uint8_t* source, int labels, std::uint8_t* target)
 {
-  transposeBlocks(source, labels, target);
+  transposeLabels(source, labels, target);
 }
 
 void transposeWordsSimd(const std::uint16_t* source, int labels, std::uint16_t* target)
 {
-  transposeBlocks(source, labels, target);
+  transposeLabels(source, labels, target);
 }
 
 void selectLabelsSimd(const std::uint16_t* sums, int labels, int first_label, float* best)
