@@ -74,11 +74,12 @@ bool LabelSearch::run(const SearchInput& input, const SearchSettings& settings, 
   context.save("multiview_first_search", maps.first);
   for (int pass = 1; pass <= settings.visibility_passes; ++pass)
   {
+    computeVisibleCosts(input, settings, cost, maps.last, context);
     if (pass == settings.visibility_passes)
     {
       setPaths(input, lastPaths(paths_, settings), context);
     }
-    searchVisible(input, settings, cost, context, maps.last);
+    aggregate(input, settings, context, maps.last);
   }
   return true;
 }
@@ -170,23 +171,20 @@ void LabelSearch::fuseBackground(const SearchInput& input, const SearchSettings&
   background_.fuse(volume_, aggregator_, paths_, with_charges_, context.pool, disparity);
 }
 
-void LabelSearch::searchVisible(const SearchInput& input, const SearchSettings& settings,
-                                const CostSettings& cost, RunContext& context, cv::Mat& disparity)
+void LabelSearch::computeVisibleCosts(const SearchInput& input, const SearchSettings& settings,
+                                      const CostSettings& cost, const cv::Mat& disparity, RunContext& context)
 {
   {
     const StageTimer timer(context, "visibility");
     bands_.setAround(disparity, input.labels, BAND_REACH_PX, BAND_MARGIN_LABELS, context.pool);
     surfaces_.warp(disparity, input.views, input.labels, context.pool);
   }
+  const StageTimer timer(context, "visible_cost");
+  cost_builder_.buildFromVisible(input.views, input.labels, bands_, surfaces_, cost, context.pool, volume_);
+  if (settings.fuse_background)
   {
-    const StageTimer timer(context, "visible_cost");
-    cost_builder_.buildFromVisible(input.views, input.labels, bands_, surfaces_, cost, context.pool, volume_);
-    if (settings.fuse_background)
-    {
-      background_.chargeMoved(context.pool, volume_);
-    }
+    background_.chargeMoved(context.pool, volume_);
   }
-  aggregate(input, settings, context, disparity);
 }
 
 }  // namespace light_field_depth::multiview

@@ -70,8 +70,8 @@ private:
                  cv::Mat& disparity);
   void fuseBackground(const SearchInput& input, const SearchSettings& settings, RunContext& context,
                       cv::Mat& disparity);
-  void searchVisible(const SearchInput& input, const SearchSettings& settings, const CostSettings& cost,
-                     RunContext& context, cv::Mat& disparity);
+  void computeVisibleCosts(const SearchInput& input, const SearchSettings& settings, const CostSettings& cost,
+                           const cv::Mat& disparity, RunContext& context);
 
   PathSettings paths_;  // of the present aggregation
   LabelBands bands_;
