@@ -36,6 +36,16 @@ std::size_t roundUp(int value, int multiple)
 
 }  // namespace
 
+namespace
+{
+/// Of those that are used.
+std::size_t firstChannel(const PlanarImage& image, const LinearizationSettings& settings)
+{
+  return settings.one_channel && image.channels() > 1 ? 1 : 0;
+}
+
+}  // namespace
+
 /// Memory of one band of rows at work.
 struct Linearizer::Scratch
 {
@@ -64,8 +74,8 @@ public:
       : views_(views), rays_(rays), disparity_(disparity), slope_variance_(slope_variance),
         settings_(settings), scratch_(scratch), result_(result), width_(views.width()),
         height_(views.height()), arms_(views.arms.size()),
-        channels_(static_cast<std::size_t>(views.reference.channels())),
-        stride_(roundUp(width_, TILE_PIXELS)), moments_(momentCount(views.reference.channels())),
+        channels_(static_cast<std::size_t>(settings.one_channel ? 1 : views.reference.channels())),
+        stride_(roundUp(width_, TILE_PIXELS)), moments_(momentCount(static_cast<int>(channels_))),
         pair_stride_(moments_ * stride_), masked_(views.hasMasks()), near_ring_(2 * RESIDUAL_RADIUS + 1),
         pair_ring_(2 * settings.window_radius + 1)
   {
@@ -144,8 +154,9 @@ private:
     tile.ray_count = static_cast<int>(rays_.rays.size());
     tile.width = width_;
     tile.height = height_;
-    tile.channels = views_.reference.channels();
-    tile.reference = views_.reference.row(y);
+    tile.channels = static_cast<int>(channels_);
+    tile.reference = views_.reference.row(y) +
+                     firstChannel(views_.reference, settings_) * views_.reference.channelStride();
     tile.reference_stride = views_.reference.channelStride();
     tile.disparity = scratch_.disparity.data();
     tile.y = y;
@@ -354,7 +365,11 @@ void Linearizer::run(const ViewSet& views, const cv::Mat& disparity, const cv::M
   result.residual.create(disparity.size(), CV_32FC1);
   result.disagreement.create(disparity.size(), CV_32FC1);
   result.noise.create(disparity.size(), CV_32FC1);
-  const ViewRays rays = findViewRays(views);
+  ViewRays rays = findViewRays(views);
+  for (SampledView& view : rays.views)
+  {
+    view.pixels += firstChannel(views.reference, settings) * view.channel_stride;
+  }
   const int bands = BANDS_PER_THREAD * pool.threads();
   const int band_rows = std::max(MIN_BAND_ROWS, (disparity.rows + bands - 1) / bands);
   pool.parallelFor(

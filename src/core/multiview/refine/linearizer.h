@@ -28,6 +28,7 @@ struct Linearization
 struct LinearizationSettings
 {
   float max_step_px = 0.15F;     ///< the approximation holds for small steps only
+  bool one_channel = false;      ///< the second of three alone: green
   bool brightness_slope = true;  ///< allow brightness that changes linearly with the position of the view
   int window_radius = 2;         ///< pixels that share one step
   /// Grey levels, sum of three channels: views that differ more from the reference drop out of the mean.

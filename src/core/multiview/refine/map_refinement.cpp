@@ -45,7 +45,7 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
   }
   if (settings.refinements == 0)
   {
-    linearize(input, settings, context, disparity);
+    linearize(input, settings.linearization, settings.noise_discount, context, disparity);
     return;
   }
   SmoothingSettings smoothing = settings.smoothing;
@@ -56,21 +56,26 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
   }
   for (int i = 1; i <= settings.refinements; ++i)
   {
-    linearize(input, settings, context, disparity);
+    const bool is_last = i == settings.refinements;
+    LinearizationSettings linearization = settings.linearization;
+    linearization.one_channel =
+        i == 1 && !is_last && noise_.value_variance <= settings.one_channel_max_variance;
+    linearize(input, linearization, settings.noise_discount, context, disparity);
     const StageTimer timer(context, "smooth");
-    smoothing.follow_slopes = i == settings.refinements;
+    smoothing.follow_slopes = is_last;
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity);
     keepInRange(input.range, start_, context.pool, disparity);
   }
 }
 
-void MapRefinement::linearize(const RefinementInput& input, const RefinementSettings& settings,
-                              RunContext& context, const cv::Mat& disparity)
+void MapRefinement::linearize(const RefinementInput& input, const LinearizationSettings& settings,
+                              const NoiseDiscountSettings& discount, RunContext& context,
+                              const cv::Mat& disparity)
 {
   const StageTimer timer(context, "linearize");
-  linearizer_.run(input.views, disparity, noise_.local_slope_variance, settings.linearization, context.pool,
+  linearizer_.run(input.views, disparity, noise_.local_slope_variance, settings, context.pool,
                   linearization_);
-  discount_.apply(settings.noise_discount, context.pool, linearization_);
+  discount_.apply(discount, context.pool, linearization_);
 }
 
 }  // namespace light_field_depth::multiview

@@ -76,6 +76,16 @@ TEST(Linearizer, NoStepIsLargerThanTheApproximationHolds)
   EXPECT_LE(most, TRUTH_PX + 0.5F + settings.max_step_px + 1e-5F);
 }
 
+TEST(Linearizer, OneChannelOfThreeFindsTheMinimumAsWell)
+{
+  LinearizationSettings settings;
+  settings.one_channel = true;
+  const Linearization one = linearized(wall(), TRUTH_PX + 0.1F, 2, settings);
+  EXPECT_LT(meanError(one), 0.03);
+  const double all = cv::mean(linearized(wall(), TRUTH_PX + 0.1F).weight(TEXTURED))[0];
+  EXPECT_NEAR(cv::mean(one.weight(TEXTURED))[0] / all, 1.0, 0.5) << "of the size of three";
+}
+
 TEST(Linearizer, TextureHasWeightAndFlatPartsHaveNone)
 {
   const Linearization linear = linearized(wall(), TRUTH_PX);
