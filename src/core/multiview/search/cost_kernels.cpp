@@ -43,6 +43,68 @@ using SignedWords = hn::RebindToSigned<Words>;
 using Integers = hn::Repartition<std::int32_t, Bytes>;
 using Floats = hn::Repartition<float, Bytes>;
 
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
+// What Highway has no word for: products of bytes, added in pairs, and two vectors of words as one of bytes,
+// 128 bits of each in turn.
+#if HWY_TARGET <= HWY_AVX3
+HWY_INLINE hn::Vec<SignedWords> addedProducts(hn::Vec<Bytes> values, hn::Vec<SignedWords> weights)
+{
+  return hn::Vec<SignedWords>{_mm512_maddubs_epi16(values.raw, weights.raw)};
+}
+HWY_INLINE hn::Vec<Bytes> toBytes(hn::Vec<SignedWords> low, hn::Vec<SignedWords> high)
+{
+  return hn::Vec<Bytes>{_mm512_packus_epi16(low.raw, high.raw)};
+}
+#elif HWY_TARGET == HWY_AVX2
+HWY_INLINE hn::Vec<SignedWords> addedProducts(hn::Vec<Bytes> values, hn::Vec<SignedWords> weights)
+{
+  return hn::Vec<SignedWords>{_mm256_maddubs_epi16(values.raw, weights.raw)};
+}
+HWY_INLINE hn::Vec<Bytes> toBytes(hn::Vec<SignedWords> low, hn::Vec<SignedWords> high)
+{
+  return hn::Vec<Bytes>{_mm256_packus_epi16(low.raw, high.raw)};
+}
+#else
+HWY_INLINE hn::Vec<SignedWords> addedProducts(hn::Vec<Bytes> values, hn::Vec<SignedWords> weights)
+{
+  return hn::Vec<SignedWords>{_mm_maddubs_epi16(values.raw, weights.raw)};
+}
+HWY_INLINE hn::Vec<Bytes> toBytes(hn::Vec<SignedWords> low, hn::Vec<SignedWords> high)
+{
+  return hn::Vec<Bytes>{_mm_packus_epi16(low.raw, high.raw)};
+}
+#endif
+
+void interpolateTapsSimd(const std::array<const std::uint8_t*, 4>& taps, int phase, int count,
+                         std::uint8_t* values)
+{
+  const Bytes bytes;
+  const SignedWords words;
+  const auto& weights = TAP_WEIGHTS[static_cast<std::size_t>(phase)];
+  // The first one of a pair lies in the lower byte.
+  const auto pairOf = [&](int first, int second) HWY_ATTR
+  { return hn::Set(words, static_cast<std::int16_t>(second * 256 + (first & 255))); };
+  const auto weights01 = pairOf(weights[0], weights[1]);
+  const auto weights23 = pairOf(weights[2], weights[3]);
+  const auto half = hn::Set(words, TAP_SCALE / 2);
+  const int lanes = static_cast<int>(hn::Lanes(bytes));
+  for (int x = 0; x < count; x += lanes)
+  {
+    const auto tap0 = hn::LoadU(bytes, taps[0] + x);
+    const auto tap1 = hn::LoadU(bytes, taps[1] + x);
+    const auto tap2 = hn::LoadU(bytes, taps[2] + x);
+    const auto tap3 = hn::LoadU(bytes, taps[3] + x);
+    const auto sum = [&](hn::Vec<Bytes> taps01, hn::Vec<Bytes> taps23) HWY_ATTR
+    {
+      const auto products = hn::Add(addedProducts(taps01, weights01), addedProducts(taps23, weights23));
+      return hn::ShiftRight<TAP_SHIFT>(hn::Add(products, half));
+    };
+    const auto low = sum(hn::InterleaveLower(bytes, tap0, tap1), hn::InterleaveLower(bytes, tap2, tap3));
+    const auto high = sum(hn::InterleaveUpper(bytes, tap0, tap1), hn::InterleaveUpper(bytes, tap2, tap3));
+    hn::StoreU(toBytes(low, high), bytes, values + x);
+  }
+}
+#else
 void interpolateTapsSimd(const std::array<const std::uint8_t*, 4>& taps, int phase, int count,
                          std::uint8_t* values)
 {
@@ -65,6 +127,7 @@ void interpolateTapsSimd(const std::array<const std::uint8_t*, 4>& taps, int pha
     hn::StoreU(hn::DemoteTo(bytes, sum), bytes, values + x);
   }
 }
+#endif  // HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
 
 /// min(truncation, sum over the channels of |reference - sample|).
 template <typename Row>
