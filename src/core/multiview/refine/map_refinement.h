@@ -16,9 +16,9 @@ namespace light_field_depth::multiview
 struct RefinementSettings
 {
   int refinements = 2;
-  /// With no more noise than this, in squared levels, the first of several refinements compares one channel of
-  /// the views alone, in half the time. Of clean views antinous has 0.13 and loses 0.04 % BadPix 0.07, cotton
-  /// has 0.24 and loses nothing; a camera model's antinous has 0.9 and would lose 1 %.
+  /// With no more noise than this, in squared levels, the first of several refinements compares one channel
+  /// of the views alone, in half the time. Of clean views antinous has 0.13 and loses 0.04 % BadPix 0.07,
+  /// cotton has 0.24 and loses nothing; a camera model's antinous has 0.9 and would lose 1 %.
   float one_channel_max_variance = 0.35F;
   LinearizationSettings linearization;
   NoiseDiscountSettings noise_discount;
