@@ -155,37 +155,43 @@ void compareAt(const ViewSet& views, const std::vector<std::size_t>& chosen, flo
   }
 }
 
-/// Medians over the blocks about every second one, between them by interpolation.
-void setLocalSlopes(NoiseBlockGrid& grid, const cv::Size& size, float overall, cv::Mat& local)
+/// Of the slopes of the blocks about one, or `overall` where too few have any.
+float localSlope(NoiseBlockGrid& grid, int middle_x, int middle_y, float overall)
 {
-  const auto cells = [](int blocks)
-  { return std::max(1, (blocks + LOCAL_STEP_BLOCKS - 1) / LOCAL_STEP_BLOCKS); };
-  cv::Mat medians(cells(grid.rows()), cells(grid.columns()), CV_32FC1, cv::Scalar(overall));
+  constexpr int reach = LOCAL_BLOCKS / 2;
   std::vector<float> near;
-  for (int row = 0; row < medians.rows; ++row)
+  for (int y = std::max(middle_y - reach, 0); y <= std::min(middle_y + reach, grid.rows() - 1); ++y)
   {
-    for (int column = 0; column < medians.cols; ++column)
+    for (int x = std::max(middle_x - reach, 0); x <= std::min(middle_x + reach, grid.columns() - 1); ++x)
     {
-      near.clear();
-      constexpr int reach = LOCAL_BLOCKS / 2;
-      const int middle_y = row * LOCAL_STEP_BLOCKS;
-      const int middle_x = column * LOCAL_STEP_BLOCKS;
-      for (int y = std::max(middle_y - reach, 0); y <= std::min(middle_y + reach, grid.rows() - 1); ++y)
+      if (grid.at(x, y).slope >= 0.0F)
       {
-        for (int x = std::max(middle_x - reach, 0); x <= std::min(middle_x + reach, grid.columns() - 1); ++x)
-        {
-          if (grid.at(x, y).slope >= 0.0F)
-          {
-            near.push_back(grid.at(x, y).slope);
-          }
-        }
-      }
-      if (near.size() >= MIN_LOCAL_BLOCKS)
-      {
-        medians.at<float>(row, column) = std::min(medianOf(near), MAX_LOCAL_RATIO * overall);
+        near.push_back(grid.at(x, y).slope);
       }
     }
   }
+  return near.size() < MIN_LOCAL_BLOCKS ? overall : std::min(medianOf(near), MAX_LOCAL_RATIO * overall);
+}
+
+/// Medians over the blocks about every second one, between them by interpolation.
+void setLocalSlopes(NoiseBlockGrid& grid, const cv::Size& size, float overall, ThreadPool& pool,
+                    cv::Mat& local)
+{
+  const auto cells = [](int blocks)
+  { return std::max(1, (blocks + LOCAL_STEP_BLOCKS - 1) / LOCAL_STEP_BLOCKS); };
+  cv::Mat medians(cells(grid.rows()), cells(grid.columns()), CV_32FC1);
+  pool.parallelFor(0, medians.rows, 1,
+                   [&](int first, int last)
+                   {
+                     for (int row = first; row < last; ++row)
+                     {
+                       for (int column = 0; column < medians.cols; ++column)
+                       {
+                         medians.at<float>(row, column) =
+                             localSlope(grid, column * LOCAL_STEP_BLOCKS, row * LOCAL_STEP_BLOCKS, overall);
+                       }
+                     }
+                   });
   cv::resize(medians, local, size, 0.0, 0.0, cv::INTER_LINEAR);
 }
 
@@ -257,7 +263,7 @@ void measureViewNoise(const ViewSet& views, const cv::Mat& disparity, ThreadPool
                    });
   noise.value_variance = medianOfCalm(grid.blocks(), calmest, &NoiseBlock::value);
   noise.slope_variance = medianOfCalm(grid.blocks(), calmest, &NoiseBlock::slope);
-  setLocalSlopes(grid, disparity.size(), noise.slope_variance, noise.local_slope_variance);
+  setLocalSlopes(grid, disparity.size(), noise.slope_variance, pool, noise.local_slope_variance);
 }
 
 }  // namespace light_field_depth::multiview
