@@ -50,6 +50,7 @@ LOG=$(mktemp)
 debootstrap --variant=minbase --include=ca-certificates,sudo bookworm "$MACHINE" "$MIRROR" >"$LOG" 2>&1 ||
   { tail -n 20 "$LOG" >&2; exit 1; }
 rm -f "$LOG"
+chmod 755 "$MACHINE"  # mktemp lets nobody else in
 # Nobody minds if this machine does not outlive a power cut; syncing each file of a thousand packages takes longest.
 echo force-unsafe-io >"$MACHINE/etc/dpkg/dpkg.cfg.d/unsafe-io"
 printf 'deb %s bookworm main\ndeb %s bookworm-updates main\n' "$MIRROR" "$MIRROR" >"$MACHINE/etc/apt/sources.list"
