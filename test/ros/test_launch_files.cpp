@@ -32,6 +32,7 @@ TEST(LaunchFiles, AllLoad)
       {"play.launch", {"input:=folder manager:=/other", "/light_field_player"}},
       {"replay.launch", {"bag:=file.bag loop:=true use_sim_time:=false", "/rosbag_play"}},
       {"rectified_array.launch", {"rows:=1 columns:=5", "/rectify_view_0_4"}},
+      {"distributed.launch", {"workers:=3 array:=grid_3x3", "/worker_2/light_field_depth"}},
       {"demo.launch", {"bag:=file.bag", "/upright_frame_broadcaster"}},
   };
   std::size_t files = 0;

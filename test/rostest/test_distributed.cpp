@@ -1,0 +1,124 @@
+// Sets spread over workers, results in order.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <stereo_msgs/DisparityImage.h>
+
+#include "array_fixture.h"
+#include "light_field_depth/LightFieldDepthStats.h"
+#include "light_field_depth/ros/distributor_node.h"
+
+namespace light_field_depth::testing
+{
+namespace
+{
+using DisparityListener = Listener<stereo_msgs::DisparityImage>;
+using StatsListener = Listener<LightFieldDepthStats>;
+
+class DistributedTest : public ::testing::Test
+{
+protected:
+  void SetUp() override { spinner_.start(); }
+  void TearDown() override { spinner_.stop(); }
+
+  /// A depth node in the namespace of a worker; its array is that of the distributor.
+  static std::unique_ptr<DepthNode> startWorker(int number)
+  {
+    const ros::NodeHandle space("/worker_" + std::to_string(number));
+    const ros::NodeHandle node_space(space, "light_field_depth");
+    XmlRpc::XmlRpcValue array;
+    EXPECT_TRUE(ros::param::get("/spread/array", array));
+    node_space.setParam("array", array);
+    node_space.setParam("keep_all", true);
+    node_space.setParam("threads", 1);
+    return std::make_unique<DepthNode>(space, node_space);
+  }
+
+  /// Publishes a set. @return its stamp
+  ros::Time publish(ArrayPublisher& array)
+  {
+    stamp_ += ros::Duration(0.1);
+    array.publish(stamp_);
+    return stamp_;
+  }
+
+  /// Sets until results come: the topics find each other one by one.
+  bool runUntil(ArrayPublisher& array, const std::function<bool()>& condition)
+  {
+    return waitFor(
+        [&]
+        {
+          publish(array);
+          return waitFor(condition, std::chrono::milliseconds(200));
+        });
+  }
+
+  ros::AsyncSpinner spinner_{4};
+  ros::NodeHandle root_{"/"};
+  ros::NodeHandle private_{"/spread"};
+  ros::Time stamp_{100.0};
+};
+
+void expectRisingStamps(const std::vector<stereo_msgs::DisparityImageConstPtr>& results)
+{
+  for (std::size_t i = 1; i < results.size(); ++i)
+  {
+    EXPECT_GT(results[i]->header.stamp, results[i - 1]->header.stamp) << i;
+  }
+}
+
+TEST_F(DistributedTest, TwoWorkersGiveTheBitsOfOneNodeInOrderAndOneMayDie)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3));
+  ArrayPublisher array(root_, scene.light_field);
+  const StatsListener first_stats(root_, "/worker_0/light_field_depth/stats");
+  const StatsListener second_stats(root_, "/worker_1/light_field_depth/stats");
+  std::unique_ptr<DepthNode> first = startWorker(0);
+  std::unique_ptr<DepthNode> second = startWorker(1);
+  DistributorNode distributor(root_, private_);
+  const DisparityListener results(private_, "disparity");
+  ASSERT_TRUE(runUntil(
+      array, [&] { return results.count() > 5 && first_stats.count() > 1 && second_stats.count() > 1; }))
+      << results.count() << " results, " << first_stats.count() << " and " << second_stats.count() << " sets";
+
+  Pipeline pipeline(1);
+  LightField light_field = scene.light_field;
+  const cv::Mat expected = pipeline.run(light_field, {}, {}).estimate.disparity +
+                           static_cast<float>(light_field.calibration->disparity_offset_px);
+  const stereo_msgs::DisparityImageConstPtr result = results.newest();
+  const cv::Mat values(static_cast<int>(result->image.height), static_cast<int>(result->image.width),
+                       CV_32FC1, const_cast<std::uint8_t*>(result->image.data.data()), result->image.step);
+  const cv::Mat valid = values >= result->min_disparity;
+  cv::Mat difference;
+  cv::absdiff(values, expected, difference);
+  double largest = 0.0;
+  cv::minMaxLoc(difference, nullptr, &largest, nullptr, nullptr, valid);
+  EXPECT_EQ(largest, 0.0);
+  EXPECT_GT(cv::countNonZero(valid), static_cast<int>(valid.total() / 2));
+
+  second.reset();
+  const std::size_t before = results.count();
+  EXPECT_TRUE(runUntil(array, [&] { return results.count() > before + 3; })) << "the other one goes on";
+  second = startWorker(1);
+  const std::size_t of_second = second_stats.count();
+  EXPECT_TRUE(runUntil(array, [&] { return second_stats.count() > of_second + 1; })) << "it is used again";
+  expectRisingStamps(results.all());
+}
+
+}  // namespace
+}  // namespace light_field_depth::testing
+
+int main(int argc, char** argv)
+{
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_distributed");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}
