@@ -3,14 +3,16 @@
 
 usage: check_peers.py FOLDER [SECONDS]
 
-Run beside peers.launch. Of one frame the clouds of stereo_image_proc/point_cloud2, depth_image_proc/point_cloud_xyz and
+Run by scripts/check_peers.sh beside peers.launch. Of one frame the clouds of stereo_image_proc/point_cloud2, depth_image_proc/point_cloud_xyz and
 point_cloud_xyzrgb must be those of ~points2 within 1e-4 of their depth, the disparity of depth_image_proc/disparity that
-of ~disparity, and the depth of convert_metric ~depth within half a millimetre; topic_tools passes messages on, and a bag
-holds them. Exits 1 with a sentence for each that is not so.
+of ~disparity, and the depth of convert_metric ~depth within half a millimetre; topic_tools passes messages on,
+rosbag records and filters them, and pointcloud_to_pcd writes points2. Exits 1 with a sentence for each that is not so.
 """
 import os
+import subprocess
 import sys
 import threading
+import time
 
 import numpy as np
 import rosbag
@@ -20,6 +22,7 @@ from stereo_msgs.msg import DisparityImage
 
 NODE = '/light_field_depth/'
 TOLERANCE = 1e-4
+CLOSING_S = 20.0  # of a bag
 TOPICS = {NODE + 'points2': PointCloud2, NODE + 'disparity': DisparityImage, NODE + 'depth': Image,
           '/peers/stereo/points': PointCloud2, '/peers/xyz/points': PointCloud2, '/peers/xyzrgb/points': PointCloud2,
           '/peers/metric/depth': Image, '/peers/disparity': DisparityImage, '/peers/throttled': DisparityImage}
@@ -91,20 +94,27 @@ def check(frame, folder):
     problems.append(compare('convert_metric', depth, metric, np.ones_like(depth), 0.00051))
     pcd = [name for name in os.listdir(folder) if name.endswith('.pcd')]
     print(f'{len(pcd)} PCD files')
+    if not pcd:
+        problems.append('pointcloud_to_pcd has written nothing.')
     return [problem for problem in problems if problem]
 
 
 def check_bag(folder):
-    path = next((os.path.join(folder, name) for name in ('results.bag', 'results.bag.active')
-                 if os.path.exists(os.path.join(folder, name))), None)
-    if path is None:
+    """Stops the recorder, so that its bag is whole, and takes one topic out of it."""
+    subprocess.run(['rosnode', 'kill', '/recorder'], check=True, stdout=subprocess.DEVNULL)
+    path = os.path.join(folder, 'results.bag')
+    end = time.monotonic() + CLOSING_S
+    while not os.path.exists(path) and time.monotonic() < end:
+        time.sleep(0.1)
+    if not os.path.exists(path):
         return ['rosbag has recorded nothing.']
-    with rosbag.Bag(path, allow_unindexed=True) as bag:
-        if path.endswith('.active'):
-            bag.reindex()
-        count = bag.get_message_count()
-    print(f'{count} messages in the bag')
-    return [] if count > 0 else ['rosbag has recorded nothing.']
+    filtered = os.path.join(folder, 'disparity.bag')
+    subprocess.run(['rosbag', 'filter', path, filtered, f"topic == '{NODE}disparity'"], check=True, stdout=subprocess.DEVNULL)
+    with rosbag.Bag(path) as bag, rosbag.Bag(filtered) as chosen:
+        recorded = bag.get_message_count(NODE + 'disparity')
+        kept = chosen.get_message_count()
+    print(f'{recorded} disparity images in the bag, {kept} when it is filtered')
+    return [] if recorded == kept > 0 else ['The bag of the results is not what was published.']
 
 
 def main():
