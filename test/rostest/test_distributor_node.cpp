@@ -118,7 +118,7 @@ TEST_F(DistributedTest, TwoWorkersGiveTheBitsOfOneNodeInOrderAndOneMayDie)
 int main(int argc, char** argv)
 {
   ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_distributed");
+  ros::init(argc, argv, "test_distributor_node");
   const ros::NodeHandle keeps_ros_running;
   return RUN_ALL_TESTS();
 }
