@@ -275,7 +275,7 @@ def make_page(runner):
         published = published_methods(arguments.published, scene)
         page.figure('accuracy', draw.accuracy({**runs, **baselines}, published),
                     'Error against run time (figure 4 of the paper). Red: measured here, stars the method of 2017. '
-                    + (f'Blue: as published, on other machines, {", ".join(sorted({m["source"] for m in published}))}.' if published
+                    + (f'Blue: other methods, on other machines, from {", ".join(sorted({m["source"] for m in published}))}.' if published
                        else f'There are no published figures of the scene "{scene}" in data/published_methods.json.'))
     figures_table(page, {**runs, **baselines})
 

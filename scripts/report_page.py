@@ -13,11 +13,11 @@ body { font-family: sans-serif; max-width: 1240px; margin: 0 auto; padding: 0 12
 h1 { font-size: 1.5em } h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid #bbb }
 figure { margin: 1em 0 } figcaption { color: #333; margin-top: 4px }
 .wide { overflow-x: auto }
-.wide img { display: block; height: auto }
+.wide img { display: block; max-width: 100%; height: auto }
 table { border-collapse: collapse; font-size: 90% } td, th { border: 1px solid #bbb; padding: 3px 8px; text-align: left }
 td.number { text-align: right; font-variant-numeric: tabular-nums }
 """
-# Dots per inch: figures of 11 inches fill the page, and scroll inside it where it is narrower.
+# Dots per inch: figures of 11 inches fill the page; where it is narrower they shrink with it, and tables scroll.
 DPI = 110
 
 
