@@ -10,8 +10,8 @@ namespace light_field_depth
 /// Spreads the sets of an array over depth nodes, on this machine or on others, and publishes their results
 /// in the order of the stamps.
 ///
-/// Each whole set goes to one worker that is idle, by its own image topics: <worker>/<image topic of the
-/// view>. Results come back from <worker>/light_field_depth/ and are published under this node's own name;
+/// Each whole set goes to one worker that is idle, by its own image topics: WORKER/IMAGE_TOPIC of each
+/// view. Results come back from WORKER/light_field_depth/ and are published under this node's own name;
 /// only what somebody listens to is asked for. A worker that dies, or says nothing for `patience`, costs its
 /// set; it is used again when it is back. A set that comes while all are busy replaces the one that waits.
 class DistributorNode
