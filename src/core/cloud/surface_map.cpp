@@ -109,6 +109,13 @@ Tolerance toleranceFor(const LightField& light_field, const DisparityRange& rang
   return tolerance;
 }
 
+cv::Mat unknownPixels(const cv::Mat& disparity)
+{
+  cv::Mat unknown;
+  cv::compare(disparity, disparity, unknown, cv::CMP_NE);
+  return unknown;
+}
+
 SurfaceMap makeSurfaceMap(const ViewDisparity& map, const View& view, const Tolerance& tolerance,
                           ThreadPool& pool)
 {
@@ -120,8 +127,7 @@ SurfaceMap makeSurfaceMap(const ViewDisparity& map, const View& view, const Tole
                                               : map.confidence.clone();
   // What is no number takes no part, and must not spread through the windows.
   cv::Mat known = map.disparity;
-  cv::Mat unknown;
-  cv::compare(map.disparity, map.disparity, unknown, cv::CMP_NE);
+  const cv::Mat unknown = unknownPixels(map.disparity);
   if (cv::countNonZero(unknown) > 0)
   {
     known = map.disparity.clone();

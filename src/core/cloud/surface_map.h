@@ -42,6 +42,9 @@ struct SurfaceMap
   cv::Mat slope_y;        ///< likewise
 };
 
+/// CV_8UC1, 255 where a map (CV_32FC1) has no number.
+cv::Mat unknownPixels(const cv::Mat& disparity);
+
 /// Drops what hangs between a foreground and a background, and fits planes.
 SurfaceMap makeSurfaceMap(const ViewDisparity& map, const View& view, const Tolerance& tolerance,
                           ThreadPool& pool);

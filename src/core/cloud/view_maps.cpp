@@ -5,6 +5,7 @@
 
 #include "core/cloud/batch_fusion.h"
 #include "core/cloud/surface_fusion.h"
+#include "core/cloud/surface_map.h"
 
 namespace light_field_depth
 {
@@ -65,9 +66,7 @@ void fill(const View& view, float lowest, cv::Mat& disparity)
   const bool along_rows = std::abs(view.steps.x) >= std::abs(view.steps.y);
   along_rows ? fillRows(disparity) : fillColumns(disparity);
   along_rows ? fillColumns(disparity) : fillRows(disparity);
-  cv::Mat unknown;  // where the view shows nothing that any map does: NaN
-  cv::compare(disparity, disparity, unknown, cv::CMP_NE);
-  disparity.setTo(lowest, unknown);
+  disparity.setTo(lowest, cloud::unknownPixels(disparity));  // the view shows nothing that any map does
 }
 
 void makeMap(const cloud::FusedView& fused, const View& view, float lowest, ViewMap& map)
