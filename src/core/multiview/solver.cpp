@@ -51,8 +51,8 @@ bool Solver::solve(const LightField& light_field, const SolverSettings& settings
     decideBoundaryPixels(guide(), settings.boundary_pixels, context.pool, searched_.last, boundary_scratch_);
   }
   context.save("multiview_searched", searched_.last);
-  searched_.last.copyTo(disparity_);
-  refinement_.run({views_, guide(), rangeOf(labels)}, settings.refinement, context, disparity_);
+  refinement_.run({views_, guide(), rangeOf(labels)}, settings.refinement, searched_.last, context,
+                  disparity_);
   rateConfidence(settings.noise_sigma, context);
   return true;
 }

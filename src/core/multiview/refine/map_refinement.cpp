@@ -35,10 +35,10 @@ void keepInRange(const DisparityRange& range, const cv::Mat& start, ThreadPool& 
 
 }  // namespace
 
-void MapRefinement::run(const RefinementInput& input, const RefinementSettings& settings, RunContext& context,
-                        cv::Mat& disparity)
+void MapRefinement::run(const RefinementInput& input, const RefinementSettings& settings,
+                        const cv::Mat& start, RunContext& context, cv::Mat& disparity)
 {
-  disparity.copyTo(start_);
+  start.copyTo(disparity);
   {
     const StageTimer timer(context, "noise");
     measureViewNoise(input.views, disparity, context.pool, noise_);
@@ -64,7 +64,7 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
     const StageTimer timer(context, "smooth");
     smoothing.follow_slopes = is_last;
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity);
-    keepInRange(input.range, start_, context.pool, disparity);
+    keepInRange(input.range, start, context.pool, disparity);
   }
 }
 

@@ -40,9 +40,9 @@ struct RefinementInput
 class MapRefinement
 {
 public:
-  /// @param disparity CV_32FC1, px, finite: start and result
-  void run(const RefinementInput& input, const RefinementSettings& settings, RunContext& context,
-           cv::Mat& disparity);
+  /// @param start CV_32FC1, px, finite  @param disparity the result, CV_32FC1; not the same as start
+  void run(const RefinementInput& input, const RefinementSettings& settings, const cv::Mat& start,
+           RunContext& context, cv::Mat& disparity);
 
   /// Of the last refinement of the last run; of its start where the settings ask for none.
   const Linearization& linearization() const { return linearization_; }
@@ -58,7 +58,6 @@ private:
   ViewNoise noise_;
   NoiseDiscount discount_;
   EdgeAwareSmoother smoother_;
-  cv::Mat start_;  // CV_32FC1, px
 };
 
 }  // namespace light_field_depth::multiview

@@ -30,8 +30,9 @@ protected:
 
   cv::Mat refined(float start_px, const RefinementSettings& settings)
   {
-    cv::Mat disparity(views_.height(), views_.width(), CV_32FC1, cv::Scalar(start_px));
-    refinement_.run({views_, views_.reference, RANGE}, settings, context_, disparity);
+    const cv::Mat start(views_.height(), views_.width(), CV_32FC1, cv::Scalar(start_px));
+    cv::Mat disparity;
+    refinement_.run({views_, views_.reference, RANGE}, settings, start, context_, disparity);
     return disparity;
   }
 
