@@ -25,11 +25,6 @@ double millisecondsBetween(FrameReport::Time from, FrameReport::Time to)
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-std::size_t queueCapacity(const NodeParameters& parameters)
-{
-  return parameters.keep_all ? static_cast<std::size_t>(parameters.keep_all_limit) : 1;
-}
-
 /// The image that a view has in the light field: the message that came, if it is that, or a new one.
 sensor_msgs::ImageConstPtr imageMessageOf(const ViewImage& received, const cv::Mat& used,
                                           const std_msgs::Header& header)

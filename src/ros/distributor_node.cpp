@@ -66,24 +66,11 @@ std::vector<std::string> readWorkers(const ros::NodeHandle& node_handle)
   return workers;
 }
 
-NodeParameters inputParameters(const ros::NodeHandle& node_handle)
+NodeParameters defaults()
 {
   NodeParameters parameters;
-  XmlRpc::XmlRpcValue array;
-  if (node_handle.getParam("array", array))
-  {
-    parameters.array = viewArrayFromParameter(array);
-  }
   parameters.use_camera_info = false;  // they are only passed on
-  node_handle.param("sync_tolerance", parameters.sync_tolerance_s, parameters.sync_tolerance_s);
-  node_handle.param("queue_size", parameters.queue_size, parameters.queue_size);
-  node_handle.param("patience", parameters.patience_s, 10.0);
-  node_handle.param("keep_all", parameters.keep_all, parameters.keep_all);
-  if (!(parameters.sync_tolerance_s >= 0.0) || parameters.queue_size < 1 || !(parameters.patience_s > 0.0))
-  {
-    throw InputError("One of sync_tolerance, queue_size and patience of '" + node_handle.getNamespace() +
-                     "' is negative or 0; correct it.");
-  }
+  parameters.patience_s = 10.0;        // of an answer, which takes longer than a set
   return parameters;
 }
 
@@ -99,12 +86,11 @@ class DistributorNode::Implementation
 public:
   Implementation(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle)
       : node_handle_(node_handle), private_node_handle_(private_node_handle),
-        parameters_(inputParameters(private_node_handle)), workers_(readWorkers(private_node_handle)),
-        ledger_(workers_.size()),
-        waiting_(parameters_.keep_all ? static_cast<std::size_t>(parameters_.keep_all_limit) : 1),
-        input_(
-            node_handle, private_node_handle, parameters_, [this](FrameSet set) { take(std::move(set)); },
-            [] {})
+        parameters_(readSetParameters(private_node_handle, defaults())),
+        workers_(readWorkers(private_node_handle)), ledger_(workers_.size()),
+        waiting_(queueCapacity(parameters_)), input_(
+                                                  node_handle, private_node_handle, parameters_,
+                                                  [this](FrameSet set) { take(std::move(set)); }, [] {})
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const std::string& worker : workers_)

@@ -139,17 +139,40 @@ void checkTransport(const ros::NodeHandle& node_handle, const std::string& trans
                    "'; install that transport, or choose one of: " + names + ".");
 }
 
-}  // namespace
-
-NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
+/// Which sets there are.
+void readSets(ParameterReader& reader, NodeParameters& parameters)
 {
-  NodeParameters parameters;
-  ParameterReader reader(private_node_handle);
   XmlRpc::XmlRpcValue array;
   if (reader.read("array", array))
   {
     parameters.array = viewArrayFromParameter(array);
   }
+  reader.readInRange("sync_tolerance", 0.0, MAX_TOLERANCE_S, parameters.sync_tolerance_s);
+  reader.readInRange("queue_size", 1, MAX_QUEUE, parameters.queue_size);
+  reader.read("keep_all", parameters.keep_all);
+  reader.readInRange("keep_all_limit", 1, MAX_QUEUE, parameters.keep_all_limit);
+  reader.readInRange("patience", 0.1, MAX_SECONDS, parameters.patience_s);
+}
+
+}  // namespace
+
+std::size_t queueCapacity(const NodeParameters& parameters)
+{
+  return parameters.keep_all ? static_cast<std::size_t>(parameters.keep_all_limit) : 1;
+}
+
+NodeParameters readSetParameters(const ros::NodeHandle& private_node_handle, NodeParameters defaults)
+{
+  ParameterReader reader(private_node_handle);
+  readSets(reader, defaults);
+  return defaults;
+}
+
+NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
+{
+  NodeParameters parameters;
+  ParameterReader reader(private_node_handle);
+  readSets(reader, parameters);
   parameters.camera_infos = readCameraInfos(parameters.array);
   reader.read("use_camera_info", parameters.use_camera_info);
   parameters.calibration = readCalibration(reader);
@@ -159,10 +182,6 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
     calibrationFromParameters(gridOf(parameters.array), parameters.array.reference, parameters.calibration,
                               {});
   }
-  reader.readInRange("sync_tolerance", 0.0, MAX_TOLERANCE_S, parameters.sync_tolerance_s);
-  reader.readInRange("queue_size", 1, MAX_QUEUE, parameters.queue_size);
-  reader.read("keep_all", parameters.keep_all);
-  reader.readInRange("keep_all_limit", 1, MAX_QUEUE, parameters.keep_all_limit);
   reader.read("lazy", parameters.lazy);
   reader.readInRange("threads", 0, MAX_THREADS, parameters.threads);
   reader.read("frame_id", parameters.frame_id);
@@ -184,7 +203,6 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
     checkTransport(private_node_handle, parameters.image_transport);
   }
   reader.read("check_order", parameters.check_order);
-  reader.readInRange("patience", 0.1, MAX_SECONDS, parameters.patience_s);
   reader.readInRange("min_views", 0, static_cast<int>(parameters.array.views.size()), parameters.min_views);
   reader.read("allow_incomplete", parameters.allow_incomplete);
   readHealth(reader, parameters.health);

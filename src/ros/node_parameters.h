@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_ROS_NODE_PARAMETERS_H
 #define LIGHT_FIELD_DEPTH_SRC_ROS_NODE_PARAMETERS_H
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,15 @@ struct NodeParameters
   /// Sentences about parameters that nobody reads or whose values were changed.
   std::vector<std::string> warnings;
 };
+
+/// How many whole sets may wait for whoever works on them.
+std::size_t queueCapacity(const NodeParameters& parameters);
+
+/// Only `array`, `sync_tolerance`, `queue_size`, `keep_all`, `keep_all_limit` and `patience`, for nodes that
+/// put sets together and do no more.
+/// @param defaults of what is not given
+/// @throw InputError that names the parameter, its value and the remedy
+NodeParameters readSetParameters(const ros::NodeHandle& private_node_handle, NodeParameters defaults);
 
 /// @throw InputError that names the parameter, its value and the remedy
 NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle);
