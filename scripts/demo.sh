@@ -17,32 +17,15 @@ done
 
 NAME=demo
 . "$TOP/scripts/own_ros.sh"
-
-start_virtual_display()
-{
-  local number_file=$1
-  Xvfb -displayfd 3 -screen 0 1600x900x24 +extension GLX 3>"$number_file" >/dev/null 2>&1 &
-  PIDS+=($!)
-  wait_until 20 test -s "$number_file" || { say "Xvfb did not start."; exit 1; }
-  DISPLAY=:$(cat "$number_file")
-  export DISPLAY LIBGL_ALWAYS_SOFTWARE=1
-}
-
-# The picture is ready when RViz has drawn the cloud: many colours on the screen.
-take_picture()
-{
-  import -window root "$1" 2>/dev/null && [ "$(identify -format %k "$1")" -gt 20000 ]
-}
+. "$TOP/scripts/virtual_display.sh"
 
 mkdir -p "$OUTPUT"
 export ROSCONSOLE_STDOUT_LINE_BUFFERED=1
-export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-$SCRATCH/runtime}
-mkdir -p -m 700 "$XDG_RUNTIME_DIR"
 
 say "writing the bag"
 "$TOOLS/dataset_to_bag" --input "$TOP/data/demo" --output "$SCRATCH/demo.bag" --count 20 --rate 2
 
-$HEADLESS && start_virtual_display "$SCRATCH/display"
+$HEADLESS && start_virtual_display
 
 say "starting the nodelet and RViz"
 roslaunch --port "$PORT" light_field_depth demo.launch bag:="$SCRATCH/demo.bag" >"$SCRATCH/roslaunch.log" 2>&1 &
