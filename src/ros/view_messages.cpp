@@ -33,13 +33,15 @@ std::vector<ViewMessages> viewMessages(const LightField& light_field, const Cali
   std::vector<ViewMessages> messages;
   for (const View& view : light_field.views)
   {
+    std_msgs::Header own_header = header;
+    own_header.frame_id = topicFromPattern(header.frame_id, view.grid);
     ViewMessages message;
     message.image_topic = topicFromPattern(topics.image, view.grid);
     message.camera_info_topic = topicFromPattern(topics.camera_info, view.grid);
-    message.image = cv_bridge::CvImage(header, encodingOf(view.image), view.image).toImageMsg();
+    message.image = cv_bridge::CvImage(own_header, encodingOf(view.image), view.image).toImageMsg();
     message.camera_info =
         boost::make_shared<sensor_msgs::CameraInfo>(cameraInfoFor(view, calibration, light_field.size()));
-    message.camera_info->header = header;
+    message.camera_info->header = own_header;
     messages.push_back(std::move(message));
   }
   return messages;

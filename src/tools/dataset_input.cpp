@@ -133,7 +133,9 @@ void addDatasetInputOptions(CLI::App& app, DatasetInputOptions& options)
       ->check(CLI::Range(1e-3, 1e4))
       ->check(FINITE)
       ->capture_default_str();
-  app.add_option("--frame-id", options.frame_id, "Frame of the images")->capture_default_str();
+  app.add_option("--frame-id", options.frame_id,
+                 "Frame of the images; {row} and {column} in it give each view one of its own")
+      ->capture_default_str();
   app.add_option("--image-topic", options.topics.image, "Pattern of the image topics")->capture_default_str();
   app.add_option("--camera-info-topic", options.topics.camera_info, "Pattern of the CameraInfo topics")
       ->capture_default_str();

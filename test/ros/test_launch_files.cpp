@@ -32,6 +32,7 @@ TEST(LaunchFiles, AllLoad)
       {"play.launch", {"input:=folder manager:=/other", "/light_field_player"}},
       {"replay.launch", {"bag:=file.bag loop:=true use_sim_time:=false", "/rosbag_play"}},
       {"rectified_array.launch", {"rows:=1 columns:=5", "/rectify_view_0_4"}},
+      {"array.launch", {"array:=row_1x5 record:=file.bag", "/robot_state_publisher"}},
       {"distributed.launch", {"workers:=3 array:=grid_3x3", "/worker_2/light_field_depth"}},
       {"demo.launch", {"bag:=file.bag", "/upright_frame_broadcaster"}},
   };
@@ -88,15 +89,19 @@ TEST(LaunchFiles, StartAManagerOfTheirOwnNameOnlyWhenNoneIsNamed)
 TEST(LaunchFiles, HaveTheSameArguments)
 {
   const std::set<std::string> differs = {"rviz", "rviz_config", "defaults"};
+  // A robot has arrays and a frame of its own.
+  const std::set<std::string> differs_on_robots = {"array", "array_file", "fixed_frame"};
   const auto expected = argumentsOf("launch/depth.launch");
   EXPECT_GT(expected.size(), 20U);
-  for (const char* const file : {"launch/play.launch", "launch/replay.launch", "launch/demo.launch"})
+  for (const std::string file :
+       {"launch/play.launch", "launch/replay.launch", "launch/demo.launch", "launch/array.launch"})
   {
     auto arguments = argumentsOf(file);
     for (const auto& [name, line] : expected)
     {
       ASSERT_EQ(arguments.count(name), 1U) << file << " lacks " << name;
-      if (differs.count(name) == 0)
+      const bool on_robot = file == "launch/array.launch" && differs_on_robots.count(name) != 0;
+      if (differs.count(name) == 0 && !on_robot)
       {
         EXPECT_EQ(arguments[name], line) << file;
       }
@@ -110,7 +115,8 @@ TEST(LaunchFiles, PassTheirArgumentsOn)
       " sync_tolerance:=0.25 threads:=3 image_transport:=compressed preset:=fast use_camera_info:=false"
       " frame_id:=camera min_confidence:=0.5 queue_size:=9 name:=front";
   for (const char* const launch : {"depth.launch", "play.launch input:=folder", "replay.launch bag:=file.bag",
-                                   "demo.launch bag:=file.bag"})
+                                   "demo.launch bag:=file.bag", "array.launch",
+                                   "array.launch source:=replay bag:=file.bag", "array.launch source:=depth"})
   {
     const std::string parameters = parametersOf(launch + arguments);
     for (const char* const parameter :
@@ -138,6 +144,9 @@ TEST(LaunchFiles, TakePathsWithSpacesAndApostrophes)
   expect(commandOf("/light_field_player", "play.launch input:=" + quoted));
   expect(commandOf("/rosbag_play", "replay.launch bag:=" + quoted));
   expect(commandOf("/rosbag_play", "demo.launch bag:=" + quoted));
+  expect(commandOf("/light_field_player", "array.launch input:=" + quoted));
+  expect(commandOf("/rosbag_play", "array.launch source:=replay bag:=" + quoted));
+  expect(commandOf("/record", "array.launch record:=" + quoted));
   expect(commandOf("/light_field_depth/rviz", "depth.launch rviz:=true rviz_config:=" + quoted));
 }
 
@@ -148,7 +157,7 @@ TEST(LaunchFiles, LeaveToTheArraysFileWhatIsNotGiven)
   std::ofstream(file) << "array: {rows: 3, columns: 3}\nsync_tolerance: 0.125\nmultiview_temporal: false\n"
                          "keep_all: false\ndense_cloud_voxel_size_m: 0.5\n";
   for (const char* const launch :
-       {"depth.launch", "replay.launch bag:=file.bag", "demo.launch bag:=file.bag"})
+       {"depth.launch", "replay.launch bag:=file.bag", "demo.launch bag:=file.bag", "array.launch"})
   {
     const std::string parameters = parametersOf(launch + (" array_file:=" + file));
     EXPECT_TRUE(has(parameters, "/sync_tolerance: 0.125")) << parameters;

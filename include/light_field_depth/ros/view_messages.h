@@ -33,8 +33,9 @@ struct TopicPatterns
 const std::string& encodingOf(const cv::Mat& image);
 
 /// A light field as a camera array would publish it: rectified images (mono8, bgr8, mono16, bgr16) and the
-/// CameraInfo of each view, all with the same header.
+/// CameraInfo of each view.
 /// @param calibration of the reference view
+/// @param header of all of them; {row} and {column} in its frame_id stand for the place of the view
 std::vector<ViewMessages> viewMessages(const LightField& light_field, const Calibration& calibration,
                                        const std_msgs::Header& header, const TopicPatterns& topics = {});
 
