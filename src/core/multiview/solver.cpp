@@ -13,11 +13,6 @@ namespace
 /// Bytes hold labels plus VISIBILITY_BIAS; below MAX_VISIBILITY_LABELS.
 constexpr int MAX_LABELS = 240;
 
-DisparityRange rangeOf(const LabelSpace& labels)
-{
-  return {labels.disparity(0.0F), labels.disparity(static_cast<float>(labels.count - 1))};
-}
-
 }  // namespace
 
 void Solver::run(const LightField& light_field, const SolverSettings& settings, RunContext& context)
@@ -51,7 +46,7 @@ bool Solver::solve(const LightField& light_field, const SolverSettings& settings
     decideBoundaryPixels(guide(), settings.boundary_pixels, context.pool, searched_.last, boundary_scratch_);
   }
   context.save("multiview_searched", searched_.last);
-  refinement_.run({views_, guide(), rangeOf(labels)}, settings.refinement, searched_.last, context,
+  refinement_.run({views_, guide(), labels.range()}, settings.refinement, searched_.last, context,
                   disparity_);
   rateConfidence(settings.noise_sigma, context);
   return true;
@@ -64,7 +59,7 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
   ViewSetSettings view_settings;
   view_settings.grey = settings.grey_search;
   view_settings.blur_sigma_px = settings.blur_sigma_px;
-  view_settings.range = rangeOf(labels);
+  view_settings.range = labels.range();
   prepareViews(light_field, view_settings, context.pool, views_);
   colour_reference_ = PlanarImage();
   if (settings.grey_search && light_field.reference().image.channels() > 1)

@@ -33,7 +33,8 @@ public:
             const cv::Mat& background, ThreadPool& pool, cv::Mat& disparity);
 
   /// Charges in a later volume for labels nearer than what was moved back.
-  void chargeMoved(ThreadPool& pool, CostVolume& volume) const;
+  /// @param labels of that volume
+  void chargeMoved(const LabelSpace& labels, ThreadPool& pool, CostVolume& volume) const;
 
 private:
   struct Region;

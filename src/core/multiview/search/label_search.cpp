@@ -11,10 +11,10 @@ namespace
 /// A later search tries the labels that the one before found within so many pixels of a tile, and so many
 /// more.
 constexpr int BAND_REACH_PX = 8;
-constexpr float BAND_MARGIN_LABELS = 4.0F;
+constexpr float BAND_MARGIN_LABELS = 3.0F;
 /// The same for the first search of a frame that follows another one, whose objects may have moved.
 constexpr int FOLLOWED_REACH_PX = 12;
-constexpr float FOLLOWED_MARGIN_LABELS = 4.0F;
+constexpr float FOLLOWED_MARGIN_LABELS = 2.0F;
 /// Distance of the labels that SearchSettings::paths is meant for.
 constexpr float UNIT_LABEL_STEP_PX = 0.125F;
 /// Of a penalty: the sum over four paths, each FULL_COST and a penalty at the most, stays in 16 bits.
@@ -33,21 +33,24 @@ CostSettings costFor(const ViewSet& views, CostSettings cost)
   return cost;
 }
 
-PathSettings firstPaths(const LabelSpace& labels, PathSettings paths)
+/// @param small_share, large_share what is asked of P1 and P2
+PathSettings pathsFor(const LabelSpace& labels, PathSettings paths, float small_share = 1.0F,
+                      float large_share = 1.0F)
 {
-  const float small_change_penalty =
-      static_cast<float>(paths.small_change_penalty) * labels.step_px / UNIT_LABEL_STEP_PX;
-  paths.small_change_penalty = cvRound(small_change_penalty);
+  paths.small_change_penalty = cvRound(small_share * static_cast<float>(paths.small_change_penalty) *
+                                       labels.step_px / UNIT_LABEL_STEP_PX);
+  paths.large_change_penalty = cvRound(large_share * static_cast<float>(paths.large_change_penalty));
   return paths;
 }
 
-PathSettings lastPaths(PathSettings paths, const SearchSettings& settings)
+/// The same range in labels farther apart, unless no later search follows that would try those between.
+LabelSpace firstLabels(const LabelSpace& labels, const SearchSettings& settings)
 {
-  paths.small_change_penalty =
-      cvRound(settings.last_small_change_share * static_cast<float>(paths.small_change_penalty));
-  paths.large_change_penalty =
-      cvRound(settings.last_large_change_share * static_cast<float>(paths.large_change_penalty));
-  return paths;
+  if (settings.visibility_passes == 0)
+  {
+    return labels;
+  }
+  return makeLabelSpace(labels.range(), labels.step_px * settings.first_label_step_share, labels.count);
 }
 
 }  // namespace
@@ -56,19 +59,10 @@ bool LabelSearch::run(const SearchInput& input, const SearchSettings& settings, 
                       RunContext& context, SearchMaps& maps)
 {
   const CostSettings cost = costFor(input.views, settings.cost);
-  if (!computeFirstCosts(input, settings, cost, around, context))
+  const LabelSpace first_labels = firstLabels(input.labels, settings);
+  if (!findFirstMap({input.views, input.guide, first_labels}, settings, cost, around, context, maps.last))
   {
     return false;
-  }
-  setPaths(input, firstPaths(input.labels, settings.paths), context);
-  aggregate(input, settings, context, maps.last);
-  if (settings.detect_changes && !acceptFirstMap(input, around.empty(), maps.last, context))
-  {
-    return false;
-  }
-  if (settings.fuse_background)
-  {
-    fuseBackground(input, settings, context, maps.last);
   }
   maps.last.copyTo(maps.first);
   context.save("multiview_first_search", maps.first);
@@ -77,9 +71,38 @@ bool LabelSearch::run(const SearchInput& input, const SearchSettings& settings, 
     computeVisibleCosts(input, settings, cost, maps.last, context);
     if (pass == settings.visibility_passes)
     {
-      setPaths(input, lastPaths(paths_, settings), context);
+      setPaths(input,
+               pathsFor(input.labels, settings.paths, settings.last_small_change_share,
+                        settings.last_large_change_share),
+               context);
+    }
+    else if (pass == 1)
+    {
+      setPaths(input, pathsFor(input.labels, settings.paths), context);
     }
     aggregate(input, settings, context, maps.last);
+  }
+  return true;
+}
+
+/// Before it is known which view sees what.
+bool LabelSearch::findFirstMap(const SearchInput& input, const SearchSettings& settings,
+                               const CostSettings& cost, const cv::Mat& around, RunContext& context,
+                               cv::Mat& disparity)
+{
+  if (!computeFirstCosts(input, settings, cost, around, context))
+  {
+    return false;
+  }
+  setPaths(input, pathsFor(input.labels, settings.paths, settings.first_small_change_share), context);
+  aggregate(input, settings, context, disparity);
+  if (settings.detect_changes && !acceptFirstMap(input, around.empty(), disparity, context))
+  {
+    return false;
+  }
+  if (settings.fuse_background)
+  {
+    fuseBackground(input, settings, context, disparity);
   }
   return true;
 }
@@ -183,7 +206,7 @@ void LabelSearch::computeVisibleCosts(const SearchInput& input, const SearchSett
   cost_builder_.buildFromVisible(input.views, input.labels, bands_, surfaces_, cost, context.pool, volume_);
   if (settings.fuse_background)
   {
-    background_.chargeMoved(context.pool, volume_);
+    background_.chargeMoved(input.labels, context.pool, volume_);
   }
 }
 

@@ -14,6 +14,7 @@ struct LabelSpace
 
   float disparity(float label) const { return first_px + label * step_px; }
   float label(float disparity_px) const { return (disparity_px - first_px) / step_px; }
+  DisparityRange range() const { return {first_px, disparity(static_cast<float>(count - 1))}; }
 };
 
 /// Labels that cover a range. The disparities are multiples of the step, so that the views' displacements

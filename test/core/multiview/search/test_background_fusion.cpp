@@ -99,11 +99,28 @@ TEST_F(BackgroundFusionTest, LaterSearchesAreHeldWhereItMoved)
   fill(-1);
   fused();
   fill(-1);
-  fusion_.chargeMoved(pool_, volume_);
-  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 3), 20);
-  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 6), 26);
+  fusion_.chargeMoved(labels_, pool_, volume_);
+  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 2), 20);
+  EXPECT_EQ(volume_.at(90, 30, BACKGROUND + 6), 28);
   EXPECT_EQ(volume_.at(90, 30, LABELS - 1), 40);
   EXPECT_EQ(volume_.at(20, 30, LABELS - 1), 60);
+}
+
+TEST_F(BackgroundFusionTest, ALaterSearchMayHaveOtherLabels)
+{
+  fill(-1);
+  fused();
+  LabelSpace finer = labels_;
+  finer.step_px /= 2.0F;
+  finer.count = 2 * LABELS - 1;
+  LabelBands bands;
+  bands.setAll(WIDTH, HEIGHT, finer.count);
+  volume_.create(WIDTH, HEIGHT, bands, CostVolume::Capacity::Band);
+  std::fill(volume_.values.begin(), volume_.values.end(), std::uint8_t{20});
+  fusion_.chargeMoved(finer, pool_, volume_);
+  EXPECT_EQ(volume_.at(90, 30, 2 * BACKGROUND + 4), 20);
+  EXPECT_EQ(volume_.at(90, 30, 2 * BACKGROUND + 12), 28);
+  EXPECT_EQ(volume_.at(20, 30, finer.count - 1), 20);
 }
 
 }  // namespace

@@ -55,6 +55,17 @@ TEST_F(LabelSearchTest, KnowingWhichViewsSeeMakesTheLastMapTheBetterOne)
   EXPECT_LT(badPercentage(maps_.last), badPercentage(maps_.first));
 }
 
+TEST_F(LabelSearchTest, TheFirstMapMayHaveFewerLabelsThanTheLast)
+{
+  SearchSettings settings;
+  settings.first_label_step_share = 1.0F;
+  ASSERT_TRUE(run(settings));
+  const double all = badPercentage(maps_.last);
+  settings.first_label_step_share = 4.0F;
+  ASSERT_TRUE(run(settings));
+  EXPECT_LT(badPercentage(maps_.last), all + 1.0);
+}
+
 TEST_F(LabelSearchTest, WithoutVisibilityTheFirstMapIsTheLast)
 {
   SearchSettings settings;
@@ -69,7 +80,7 @@ TEST_F(LabelSearchTest, LabelsFarFromTheGivenMapAreNotTried)
   ASSERT_TRUE(run({}, cv::Mat(scene_.truth.size(), CV_32FC1, cv::Scalar(away_px))));
   double most = 0.0;
   cv::minMaxIdx(maps_.first, nullptr, &most);
-  EXPECT_LT(most, away_px + 1.0F) << "four labels more than the map has";
+  EXPECT_LT(most, away_px + 1.0F) << "a few labels more than the map has";
 }
 
 TEST_F(LabelSearchTest, AnotherSceneIsNotSearchedNearTheLastOnesMap)
