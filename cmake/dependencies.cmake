@@ -14,6 +14,7 @@ find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs video OPTIONAL_CO
 find_package(Eigen3 REQUIRED)
 find_package(PCL REQUIRED COMPONENTS common io)
 find_package(yaml-cpp REQUIRED)
+find_package(JPEG REQUIRED)
 find_package(Threads REQUIRED)
 
 include(FetchContent)

@@ -11,6 +11,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "io/jpeg_check.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/mask_sources.h"
 #include "light_field_depth/io/files.h"
@@ -30,6 +31,11 @@ bool startsWith(std::string_view text, std::string_view beginning)
   return text.substr(0, beginning.size()) == beginning;
 }
 
+bool isJpeg(std::string_view content)
+{
+  return startsWith(content, "\xFF\xD8");
+}
+
 /// Decoders fill the rest of a truncated JPEG with grey and call it a success, and complain about a truncated
 /// PNG on stderr; so the end of the file is looked at before.
 bool isTruncated(std::string_view content)
@@ -39,7 +45,7 @@ bool isTruncated(std::string_view content)
   {
     return content.rfind("IEND"sv) == std::string_view::npos;
   }
-  if (startsWith(content, "\xFF\xD8"sv))
+  if (isJpeg(content))
   {
     const std::size_t last_scan = content.rfind("\xFF\xDA"sv);
     const std::size_t end = content.rfind("\xFF\xD9"sv);
@@ -131,6 +137,11 @@ cv::Mat readImage(const std::filesystem::path& path, cv::Mat* mask)
   {
     throw InputError("The image '" + path.string() +
                      "' is truncated: its end is missing; copy it again or remove it.");
+  }
+  if (isJpeg(content) && isDamagedJpeg(content))
+  {
+    throw InputError("The image '" + path.string() +
+                     "' is damaged: a part of the picture cannot be decoded; copy it again or remove it.");
   }
   cv::Mat image = decode(content);
   if (image.empty())

@@ -170,6 +170,7 @@ const std::vector<Case> CASES = {
     {"GarbageAsPng", Wanted::Sentence, [](Scene& s) { s.write("view_0_1.png", std::string(500, 'g')); }},
     {"WebPageAsPng", Wanted::Sentence, [](Scene& s) { s.write("view_0_1.png", "<html>404 not found</html>"); }},
     {"TruncatedJpeg", Wanted::Sentence, [](Scene& s) { convert(s, ".jpg", CV_8U, 1.0); s.cut("view_0_1.jpg", 0.5); }},
+    {"JpegDamagedInItsMiddle", Wanted::Sentence, [](Scene& s) { convert(s, ".jpg", CV_8U, 1.0); s.damage("view_0_1.jpg"); }},
     {"JpegPictures", Wanted::Answer, [](Scene& s) { convert(s, ".jpg", CV_8U, 1.0); }},
     {"HeaderThatLies", Wanted::Sentence, [](Scene& s) { s.clear(); for (const char* name : {"v_0.pgm", "v_1.pgm"}) s.write(name, "P5\n60000 60000\n255\nabc"); }},
     {"DanglingLink", Wanted::Either, [](Scene& s) { fs::remove(s.input / "view_0_0.png"); fs::create_symlink("absent", s.input / "view_0_0.png"); }},
