@@ -14,7 +14,7 @@ import re
 import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
-DOCUMENTS = ("README.md", "docs/experiments.md", "docs/performance.md")
+DOCUMENTS = ("README.md", "docs/experiments.md", "docs/performance.md", "docs/reliability.md")
 PLACE = re.compile(r"(<!-- (benchmark/results/\w+\.md)((?:, [\w ]+)*) -->\n).*?(<!-- end of table -->\n)", re.DOTALL)
 HEAD_ROWS = 2
 

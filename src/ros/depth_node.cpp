@@ -1,6 +1,7 @@
 #include "ros/depth_node_implementation.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include <cv_bridge/cv_bridge.h>
@@ -19,6 +20,8 @@ namespace
 {
 const ros::WallDuration WATCH_PERIOD(1.0);
 constexpr double NANOSECONDS_PER_MILLISECOND = 1e6;
+constexpr const char* NO_MEMORY =
+    "The memory does not suffice for a set; use fewer or smaller views (decimation).";
 
 double millisecondsBetween(FrameReport::Time from, FrameReport::Time to)
 {
@@ -110,6 +113,7 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
       pipeline_(parameters_.threads),
       assembler_(parameters_.array, parameters_.calibration, assemblerOptions(parameters_), pipeline_.pool()),
       result_watch_(parameters_.check_order),
+      master_watch_([this](const std::string& sentence) { diagnostics_.error(sentence); }),
       health_(parameters_.array, parameters_.queue_size, parameters_.health)
 {
   paused_ = parameters_.paused;
@@ -201,6 +205,14 @@ void DepthNode::Implementation::processSafely(FrameSet set)
   catch (const Cancelled&)
   {
     // The node is being destroyed.
+  }
+  catch (const std::bad_alloc&)
+  {
+    diagnostics_.frameFailed(NO_MEMORY);
+  }
+  catch (const cv::Exception& error)
+  {
+    diagnostics_.frameFailed(error.code == cv::Error::StsNoMem ? NO_MEMORY : error.what());
   }
   catch (const std::exception& error)
   {

@@ -27,6 +27,7 @@
 #include "ros/frame_queue.h"
 #include "ros/input_health.h"
 #include "ros/light_field_assembler.h"
+#include "ros/master_watch.h"
 #include "ros/message_pool.h"
 #include "ros/node_diagnostics.h"
 #include "ros/node_parameters.h"
@@ -118,6 +119,7 @@ private:
   std::mutex last_set_mutex_;      ///< guards last_set_
   FrameSet last_set_;              ///< that was worked on
   BackgroundRunner publication_;   ///< after what its jobs use
+  MasterWatch master_watch_;
 
   std::vector<ros::ServiceServer> services_;
   ros::SteadyTimer watch_timer_;

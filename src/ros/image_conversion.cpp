@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <new>
+#include <vector>
 
 #include <sensor_msgs/image_encodings.h>
 #include <boost/endian/conversion.hpp>
@@ -124,6 +126,23 @@ cv::Mat converted(const cv::Mat& image, const Encoding& encoding)
   return result;
 }
 
+/// @return an empty image for what cannot be decoded
+cv::Mat decoded(const std::vector<std::uint8_t>& bytes)
+{
+  try
+  {
+    return bytes.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  }
+  catch (const cv::Exception& error)
+  {
+    if (error.code == cv::Error::StsNoMem)
+    {
+      throw std::bad_alloc();
+    }
+    return {};  // such as one that says to have billions of pixels
+  }
+}
+
 /// A copy with the two bytes of every value swapped.
 cv::Mat byteSwapped(const cv::Mat& image)
 {
@@ -181,11 +200,7 @@ cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std:
 {
   // Where an image should be turned is for those who look at it; the calibration knows the pixels as they
   // are, and so does 'unchanged', which also leaves the alpha channel.
-  cv::Mat image;
-  if (!message.data.empty())
-  {
-    image = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
-  }
+  cv::Mat image = decoded(message.data);
   if (image.empty() || (image.depth() != CV_8U && image.depth() != CV_16U))
   {
     throw InputError(view_name + ": the compressed image of " + std::to_string(message.data.size()) +

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <string>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -37,6 +39,29 @@ cv::Matx33d matrixFrom(const boost::array<double, 9>& values)
 bool isZero(const cv::Matx33d& matrix)
 {
   return std::all_of(matrix.val, matrix.val + 9, [](double entry) { return entry == 0.0; });
+}
+
+/// A message that says more is damaged.
+constexpr std::uint32_t MAX_SIDE_PX = 1U << 16U;
+
+void checkSize(const sensor_msgs::CameraInfo& info, const std::string& view_name)
+{
+  if (info.width < 1 || info.height < 1 || info.width > MAX_SIDE_PX || info.height > MAX_SIDE_PX)
+  {
+    throw InputError(view_name + ": its CameraInfo is that of an image of " + std::to_string(info.width) +
+                     " x " + std::to_string(info.height) +
+                     " pixels; publish that of the camera, with the binning and the region of its images.");
+  }
+}
+
+template <class Values>
+void checkFinite(const Values& values, const std::string& field, const std::string& view_name)
+{
+  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+  {
+    throw InputError(view_name + ": " + field +
+                     " of its CameraInfo has a value that is no finite number; correct the calibration.");
+  }
 }
 
 }  // namespace
@@ -85,6 +110,11 @@ void ViewRectifier::useRaw(const sensor_msgs::CameraInfo& info, const std::strin
                      ": K of its CameraInfo is not that of a calibrated camera, but 'rectify' needs it; "
                      "calibrate the camera, or set rectify to false.");
   }
+  checkSize(info, view_name);
+  checkFinite(info.K, "K", view_name);
+  checkFinite(info.D, "D", view_name);
+  checkFinite(info.R, "R", view_name);
+  checkFinite(rectified_.P, "P", view_name);
   const cv::Matx33d turn = isZero(matrixFrom(info.R)) ? cv::Matx33d::eye() : matrixFrom(info.R);
   const cv::Size size(static_cast<int>(info.width), static_cast<int>(info.height));
   const cv::Mat distortion(info.D, true);
@@ -143,6 +173,7 @@ void ViewRectifier::useProjection(const sensor_msgs::CameraInfo& info, const std
                      ", P[4] " + std::to_string(p[4]) + ", P[8] " + std::to_string(p[8]) + ", P[9] " +
                      std::to_string(p[9]) + "); rectify all views to one plane.");
   }
+  checkSize(info, view_name);
   const cv::Matx33d projection(p[0], p[1], p[2], p[4], p[5], p[6], p[8], p[9], p[10]);
   const cv::Vec3d centre = -(projection.inv() * cv::Vec3d(p[3], p[7], p[11]));
   rectified_.P = {rectified_.P[FX],

@@ -1,5 +1,7 @@
-// What goes wrong around the node: views that stop, readers that block, signals in mid-frame.
+// What goes wrong around the node: views that stop, readers that block, signals in mid-frame, disks and
+// memory that do not suffice, a master that starts anew.
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -7,17 +9,27 @@
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <mutex>
 #include <string>
+#include <vector>
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Trigger.h>
 #include <stereo_msgs/DisparityImage.h>
 
 #include "array_fixture.h"
+#include "child_program.h"
 #include "light_field_depth/LightFieldDepthStats.h"
+#include "light_field_depth/nodelets/result_saver.h"
+#include "support/limits.h"
+#include "support/temporary_folder.h"
 
 namespace light_field_depth::testing
 {
@@ -135,17 +147,13 @@ TEST_F(NodeFaults, AReaderThatBlocksHoldsUpNoOther)
   EXPECT_EQ(blocked.count(), 1) << "and waits all the while";
 }
 
-/// The program, started with arguments. @return its process
-pid_t startProgram(const std::string& name)
+/// The parameters of a depth node for an array of 3 x 3 views in the root.
+void describeArray(const std::string& node)
 {
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    const std::string node_name = "__name:=" + name;
-    execl(DEPTH_NODE_PROGRAM, DEPTH_NODE_PROGRAM, node_name.c_str(), nullptr);
-    _exit(127);
-  }
-  return child;
+  ros::NodeHandle root("/");
+  root.setParam(node + "/array/rows", 3);
+  root.setParam(node + "/array/columns", 3);
+  root.setParam(node + "/array/layout", "all");
 }
 
 TEST_F(NodeFaults, SignalsInMidFrameEndTheProgramSoon)
@@ -156,27 +164,78 @@ TEST_F(NodeFaults, SignalsInMidFrameEndTheProgramSoon)
   for (const int signal : {SIGINT, SIGTERM})
   {
     const std::string name = signal == SIGINT ? "interrupted" : "terminated";
-    ros::NodeHandle root("/");
-    for (const char* const number : {"rows", "columns"})
-    {
-      root.setParam("/" + name + "/array/" + number, 3);
-    }
-    root.setParam("/" + name + "/array/layout", "all");
+    describeArray("/" + name);
     const DisparityListener disparity(ros::NodeHandle("/" + name), "disparity");
-    const pid_t child = startProgram(name);
-    ArrayPublisher array(root, scene.light_field);
+    Child child({DEPTH_NODE_PROGRAM, "__name:=" + name});
+    ArrayPublisher array(ros::NodeHandle("/"), scene.light_field);
     ASSERT_TRUE(publishUntil(array, [&] { return disparity.count() > 0; }));
     array.publish(nextStamp());  // the next frame is in work now
     const auto start = std::chrono::steady_clock::now();
-    kill(child, signal);
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
+    const int status = child.end(signal);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << name << ", status " << status;
     EXPECT_LT(seconds.count(), DEADLINE_S) << name;
     RecordProperty(name + "_ms", static_cast<int>(1000.0 * seconds.count()));
     std::cout << name << " after " << seconds.count() << " s" << std::endl;
   }
+}
+
+TEST_F(NodeFaults, ADiskThatIsFullWhileSavingCostsTheSavedResultAlone)
+{
+  const TemporaryFolder folder;
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), SMALL);
+  ArrayPublisher array(*array_space_, scene.light_field);
+  setParameter("save_directory", (folder / "saved results").string());
+  startNode(scene.light_field, {}, saveResult);
+  const DisparityListener disparity(*node_space_, "disparity");
+  const Listener<diagnostic_msgs::DiagnosticArray> diagnostics(*node_space_, "/diagnostics");
+  ASSERT_TRUE(publishUntil(array, [&] { return disparity.count() > 0; }));
+  std_srvs::Trigger call;
+  {
+    const FileSizeLimit limit(4096);
+    ASSERT_TRUE(ros::service::call(node_space_->getNamespace() + "/save", call));
+    EXPECT_TRUE(publishUntil(array, [&] { return diagnosed(diagnostics, {"could not be saved", "space"}); }));
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "saved results"), {}), 0)
+      << "no half results";
+  const std::size_t before = disparity.count();
+  EXPECT_TRUE(publishUntil(array, [&] { return disparity.count() > before; }));
+  ASSERT_TRUE(ros::service::call(node_space_->getNamespace() + "/save", call));
+  EXPECT_TRUE(publishUntil(array,
+                           [&]
+                           {
+                             const std::filesystem::directory_iterator saved(folder / "saved results");
+                             return saved != end(saved) &&
+                                    std::filesystem::exists(saved->path() / "report.json");
+                           }));
+}
+
+TEST_F(NodeFaults, MemoryThatDoesNotSufficeCostsTheFrameAlone)
+{
+  const std::string name = "little_memory";
+  describeArray("/" + name);
+  const SyntheticLightField scene = syntheticArray(gridPositions(3, 3), {512, 384});
+  const DisparityListener disparity(ros::NodeHandle("/" + name), "disparity");
+  const Listener<LightFieldDepthStats> stats(ros::NodeHandle("/" + name), "stats");
+  const Listener<diagnostic_msgs::DiagnosticArray> diagnostics(*node_space_, "/diagnostics");
+  const Child child({DEPTH_NODE_PROGRAM, "__name:=" + name});
+  ArrayPublisher array(ros::NodeHandle("/"), scene.light_field);
+  ASSERT_TRUE(waitFor([&] { return array.topicsHeard() == array.topics(); }));
+  std::ifstream statm("/proc/" + std::to_string(child.process()) + "/statm");
+  rlim_t pages = 0;
+  ASSERT_TRUE(statm >> pages);
+  rlimit before{};
+  // Enough for the messages, not for the first frame.
+  ASSERT_EQ(prlimit(child.process(), RLIMIT_AS, nullptr, &before), 0);
+  rlimit little = before;
+  little.rlim_cur = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{24} << 20U);
+  ASSERT_EQ(prlimit(child.process(), RLIMIT_AS, &little, nullptr), 0);
+  EXPECT_TRUE(publishUntil(array, [&] { return diagnosed(diagnostics, {"memory does not suffice"}); }));
+  EXPECT_EQ(disparity.count(), 0U);
+  ASSERT_TRUE(child.isRunning());
+  ASSERT_EQ(prlimit(child.process(), RLIMIT_AS, &before, nullptr), 0);
+  ASSERT_TRUE(publishUntil(array, [&] { return disparity.count() > 0 && stats.count() > 0; }));
+  EXPECT_GE(stats.newest()->frames_failed, 1U);
 }
 
 }  // namespace
