@@ -24,8 +24,11 @@ void fuzzParametersCfg(const std::uint8_t* data, std::size_t size);
 void fuzzTransformsJson(const std::uint8_t* data, std::size_t size);
 void fuzzNames(const std::uint8_t* data, std::size_t size);
 void fuzzOptions(const std::uint8_t* data, std::size_t size);
+void fuzzArrayYaml(const std::uint8_t* data, std::size_t size);
+void fuzzCameraInfo(const std::uint8_t* data, std::size_t size);
+void fuzzImageMessage(const std::uint8_t* data, std::size_t size);
 
-constexpr std::array<Harness, 7> HARNESSES = {{
+constexpr std::array<Harness, 10> HARNESSES = {{
     {"estimator", fuzzEstimator},
     {"pfm", fuzzPfm},
     {"light_field_yaml", fuzzLightFieldYaml},
@@ -33,6 +36,9 @@ constexpr std::array<Harness, 7> HARNESSES = {{
     {"transforms_json", fuzzTransformsJson},
     {"names", fuzzNames},
     {"options", fuzzOptions},
+    {"array_yaml", fuzzArrayYaml},
+    {"camera_info", fuzzCameraInfo},
+    {"image_message", fuzzImageMessage},
 }};
 
 }  // namespace light_field_depth::fuzz
