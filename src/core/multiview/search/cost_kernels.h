@@ -51,8 +51,9 @@ struct RowMasks
   int view_count = 0;
 };
 
-/// Costs of armCostRow() anew where a view is masked, from the others; FULL_COST where all are, and 0 where
-/// the reference is. There are few such pixels, so that a plain version is enough.
+/// Costs of armCostRow() anew where a view is masked, from the others; FULL_COST where all are. Where the
+/// reference is masked, the other views are compared with each other: what goes on behind the mask tells a
+/// blank surface at its border how far it is. There are few such pixels, so that a plain version is enough.
 void maskArmCosts(const ArmCostRow& row, const RowMasks& masks, std::uint8_t* cost);
 
 /// What one row of the cost volume with known visibility is made of.
@@ -77,6 +78,10 @@ struct VisibleCostRow
 /// The cost of one label in one row over the views that see it. 0..FULL_COST.
 void visibleCostRow(const VisibleCostRow& row, std::uint8_t* cost);
 void visibleCostRowPlain(const VisibleCostRow& row, std::uint8_t* cost);
+
+/// Costs of visibleCostRow() anew where the reference is masked, as maskArmCosts() has them.
+/// @pre masks.reference is not nullptr
+void maskVisibleCosts(const VisibleCostRow& row, const RowMasks& masks, std::uint8_t* cost);
 
 }  // namespace light_field_depth::multiview
 

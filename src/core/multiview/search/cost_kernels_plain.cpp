@@ -77,6 +77,50 @@ int costOfUnmasked(const ArmCostRow& row, const RowMasks& masks, int x, std::vec
   return meanOfBest(arms, std::max(1, row.best_arms / 2));
 }
 
+/// Where the reference is masked: the mean truncated difference of the views that see the point from their
+/// mean. Nothing where they are too few to tell.
+template <typename Row>
+int costAmongViews(const Row& row, const RowMasks& masks, int x)
+{
+  constexpr int MIN_SEEING = 3;
+  constexpr std::size_t MAX_CHANNELS = 3;
+  const auto sampleAt = [&](int view, std::size_t channel) {
+    return static_cast<int>(row.samples[view][static_cast<std::ptrdiff_t>(channel * row.sample_stride) + x]);
+  };
+  const auto channels = static_cast<std::size_t>(row.channels);
+  std::array<int, MAX_CHANNELS> sums{};
+  int seeing = 0;
+  for (int view = 0; view < masks.view_count; ++view)
+  {
+    if (!isMasked(masks, view, x))
+    {
+      ++seeing;
+      for (std::size_t c = 0; c < channels; ++c)
+      {
+        sums[c] += sampleAt(view, c);
+      }
+    }
+  }
+  if (seeing < MIN_SEEING)
+  {
+    return 0;
+  }
+  int cost = 0;
+  for (int view = 0; view < masks.view_count; ++view)
+  {
+    if (!isMasked(masks, view, x))
+    {
+      int difference = 0;
+      for (std::size_t c = 0; c < channels; ++c)
+      {
+        difference += std::abs(seeing * sampleAt(view, c) - sums[c]);
+      }
+      cost += std::min(difference / seeing, row.truncation);
+    }
+  }
+  return cost * FULL_COST / (row.truncation * seeing);
+}
+
 }  // namespace
 
 void interpolateTapsPlain(const std::array<const std::uint8_t*, 4>& taps, int phase, int count,
@@ -129,11 +173,22 @@ void maskArmCosts(const ArmCostRow& row, const RowMasks& masks, std::uint8_t* co
   {
     if (masks.reference != nullptr && masks.reference[x] != 0)
     {
-      cost[x] = 0;
+      cost[x] = static_cast<std::uint8_t>(costAmongViews(row, masks, x));
     }
     else if (any[static_cast<std::size_t>(x)] != 0)
     {
       cost[x] = static_cast<std::uint8_t>(costOfUnmasked(row, masks, x, arms));
+    }
+  }
+}
+
+void maskVisibleCosts(const VisibleCostRow& row, const RowMasks& masks, std::uint8_t* cost)
+{
+  for (int x = 0; x < row.width; ++x)
+  {
+    if (masks.reference[x] != 0)
+    {
+      cost[x] = static_cast<std::uint8_t>(costAmongViews(row, masks, x));
     }
   }
 }

@@ -313,11 +313,11 @@ private:
     armCostRow(row, scratch.cost.data());
     if (task.masked)
     {
-      maskArms(row, y, first_x);
+      maskArmCosts(row, rowMasks(y, first_x), scratch.cost.data());
     }
   }
 
-  void maskArms(const ArmCostRow& row, int y, int first_x) const
+  RowMasks rowMasks(int y, int first_x) const
   {
     scratch.shifted_masked.resize(scratch.masked.size());
     std::transform(scratch.masked.begin(), scratch.masked.end(), scratch.shifted_masked.begin(),
@@ -327,7 +327,7 @@ private:
     masks.reference = referenceMasked(y, first_x);
     masks.views = scratch.shifted_masked.data();
     masks.view_count = static_cast<int>(scratch.shifted_masked.size());
-    maskArmCosts(row, masks, scratch.cost.data());
+    return masks;
   }
 
   const std::uint8_t* referenceMasked(int y, int first_x) const
@@ -352,11 +352,9 @@ private:
     row.min_seeing_views = settings.min_seeing_views;
     row.unseen_penalty = settings.unseen_penalty;
     visibleCostRow(row, scratch.cost.data());
-    if (const std::uint8_t* const masked = referenceMasked(y, first_x))
+    if (referenceMasked(y, first_x) != nullptr)
     {
-      std::transform(masked, masked + width, scratch.cost.begin(), scratch.cost.begin(),
-                     [](std::uint8_t is_masked, std::uint8_t cost)
-                     { return is_masked != 0 ? std::uint8_t{0} : cost; });
+      maskVisibleCosts(row, rowMasks(y, first_x), scratch.cost.data());
     }
   }
 };

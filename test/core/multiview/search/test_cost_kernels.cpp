@@ -143,5 +143,31 @@ TEST_P(CostKernels, VisibleCostEqualsThePlainVersion)
   }
 }
 
+TEST(MaskCosts, CompareTheOtherViewsWhereTheReferenceIsMasked)
+{
+  constexpr int SEEING = 4;
+  // Pixel 0: all alike; 1: two of 40, two of 50, 5 off their mean; 2: two views see it; 3: the reference
+  // does.
+  const std::uint8_t samples[SEEING][4] = {{9, 40, 1, 7}, {9, 40, 99, 7}, {9, 50, 1, 7}, {9, 50, 99, 7}};
+  const std::uint8_t masks[SEEING][4] = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 1, 0}};
+  const std::uint8_t reference_masked[4] = {1, 1, 1, 0};
+  std::vector<const std::uint8_t*> sample_rows;
+  std::vector<const std::uint8_t*> mask_rows;
+  for (int view = 0; view < SEEING; ++view)
+  {
+    sample_rows.push_back(samples[view]);
+    mask_rows.push_back(masks[view]);
+  }
+  VisibleCostRow row;
+  row.samples = sample_rows.data();
+  row.views = SEEING;
+  row.channels = 1;
+  row.width = 4;
+  row.truncation = 30;
+  std::vector<std::uint8_t> cost(4, 77);
+  maskVisibleCosts(row, {reference_masked, mask_rows.data(), SEEING}, cost.data());
+  EXPECT_EQ(cost, (std::vector<std::uint8_t>{0, 5 * FULL_COST / 30, 0, 77}));
+}
+
 }  // namespace
 }  // namespace light_field_depth::multiview
