@@ -314,6 +314,10 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
   Dataset dataset;
   dataset.views_found = description.views.size();
   std::vector<View> views = chosenViews(options, placed, description.views);
+  if (options.admit && !description.views.empty())
+  {
+    options.admit(views.size(), store.image(description.views.front().id));
+  }
   store.decode(idsOf(description.views));
 
   dataset.format = description.format;

@@ -10,6 +10,7 @@
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/geometry.h"
+#include "light_field_depth/core/memory_need.h"
 #include "light_field_depth/ros/result_messages.h"
 #include "light_field_depth/ros/view_messages.h"
 #include "ros/view_frames.h"
@@ -356,6 +357,9 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
   const DensePointSink to_message = [&](const DensePoint* points, std::size_t count)
   { appendDensePoints(points, count, every_nth, *products.points_dense); };
   request.dense_cloud_sink = to_message;
+  requireMemory({light_field.views.size(), light_field.size(), light_field.reference().image.type()},
+                settings.pipeline, request, parameters_.max_memory_mb,
+                "Use fewer views, reduce them (decimation), or raise max_memory.");
   if (everything)
   {
     // Into the result, which is saved; listeners get a copy.

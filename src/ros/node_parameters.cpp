@@ -23,6 +23,7 @@ constexpr int MAX_QUEUE = 10000;
 constexpr int MAX_THREADS = 1024;
 constexpr int MAX_DECIMATION = 16;
 constexpr double MAX_SECONDS = 1e6;
+constexpr double MAX_MEMORY_MB = 1e9;
 
 template <class T>
 const char* typeName()
@@ -184,6 +185,7 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   }
   reader.read("lazy", parameters.lazy);
   reader.readInRange("threads", 0, MAX_THREADS, parameters.threads);
+  reader.readInRange("max_memory", 0.0, MAX_MEMORY_MB, parameters.max_memory_mb);
   reader.read("frame_id", parameters.frame_id);
   reader.read("target_frame", parameters.target_frame);
   reader.read("publish_tf", parameters.publish_tf);

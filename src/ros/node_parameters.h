@@ -51,6 +51,9 @@ struct NodeParameters
   /// `threads` that work on a frame; 0 takes one per processor.
   int threads = 0;
 
+  /// `max_memory`, in MB: a set that may need more is refused; 0: what the machine has.
+  double max_memory_mb = 0.0;
+
   /// `frame_id` of the results; that of the reference image when empty.
   std::string frame_id;
 

@@ -8,6 +8,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "light_field_depth/core/memory_need.h"
 #include "tools/estimate_arguments.h"
 #include "tools/estimate_frame.h"
 #include "tools/estimate_input.h"
@@ -74,7 +75,14 @@ int estimate(const lfd::EstimateArguments& arguments)
   lfd::resultFileOptions(arguments.output_files);
   lfd::Pipeline pipeline(arguments.threads);
   cv::setNumThreads(pipeline.threads());
-  const lfd::DatasetOptions options = lfd::makeDatasetOptions(arguments);
+  lfd::DatasetOptions options = lfd::makeDatasetOptions(arguments);
+  options.admit = [&](std::size_t views, const cv::Mat& one)
+  {
+    lfd::ProductRequest request;
+    request.dense_cloud = arguments.dense || arguments.view_maps;
+    lfd::requireMemory({views, one.size(), one.type()}, report.options, request, arguments.max_memory_mb,
+                       "Choose fewer --views, reduce the images, or raise --max-memory.");
+  };
   const bool fine =
       arguments.frames.empty()
           ? lfd::estimateFrame(

@@ -61,6 +61,10 @@ void declare(CLI::App& app, EstimateArguments& arguments)
                "from (255 seen by the reference view, 128 solved in others, 0 filled)");
   app.add_option("--threads", arguments.threads, "threads to work with; 0 takes one per processor")
       ->check(CLI::Range(0, MAX_THREADS));
+  app.add_option(
+         "--max-memory", arguments.max_memory_mb,
+         "MB that a run may need; more is refused before the views are read; what the machine has by default")
+      ->check(POSITIVE);
   app.add_flag("--save-intermediate", arguments.save_intermediate,
                "also write the results of the single stages to OUTPUT/intermediate");
   declareOutput(app, arguments.output_files);

@@ -34,6 +34,7 @@ struct EstimateArguments
   bool dense = false;
   bool view_maps = false;
   int threads = 0;
+  double max_memory_mb = 0.0;
   bool save_intermediate = false;
   OutputArguments output_files;
   std::vector<double> baseline_m;

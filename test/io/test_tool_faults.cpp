@@ -160,6 +160,24 @@ TEST_F(ToolFaults, TooLittleMemoryIsASentence)
   expectOldResults();
 }
 
+TEST_F(ToolFaults, WhatNeedsMoreMemoryThanAllowedIsRefusedBeforeItIsRead)
+{
+  // The last view cannot be read: nobody tries to.
+  folder_.write("scene/view_2_2.png", "no picture");
+  const Outcome refused =
+      testing::runProgram(command("--views all --order row-major --flip none --max-memory 70.2"));
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.errors.find("9 views of 64 x 48 pixels may need up to 71 MB, but 70 MB are allowed; "),
+            std::string::npos)
+      << refused.errors;
+  EXPECT_NE(refused.errors.find("would fit"), std::string::npos) << refused.errors;
+  EXPECT_EQ(std::count(refused.errors.begin(), refused.errors.end(), '\n'), 1) << refused.errors;
+  expectOldResults();
+  const Outcome read = testing::runProgram(command("--views all --max-memory 80"));
+  EXPECT_NE(read.errors.find("view_2_2.png"), std::string::npos) << read.errors;
+  EXPECT_EQ(testing::runProgram(command("--max-memory nan")).exit_code, 1);
+}
+
 TEST(EvaluateFaults, AMapWithoutValuesIsBadWhateverTheTruth)
 {
   const TemporaryFolder folder;

@@ -210,6 +210,22 @@ TEST_F(NodeFaults, ADiskThatIsFullWhileSavingCostsTheSavedResultAlone)
                            }));
 }
 
+TEST_F(NodeFaults, SetsThatMayNeedMoreMemoryThanAllowedAreRefused)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), SMALL);
+  ArrayPublisher array(*array_space_, scene.light_field);
+  setParameter("max_memory", 10.0);
+  startNode(scene.light_field);
+  const DisparityListener disparity(*node_space_, "disparity");
+  const Listener<diagnostic_msgs::DiagnosticArray> diagnostics(*node_space_, "/diagnostics");
+  EXPECT_TRUE(
+      publishUntil(array,
+                   [&] {
+                     return diagnosed(diagnostics, {"3 views of 64 x 48 pixels", "10 MB are allowed"});
+                   }));
+  EXPECT_EQ(disparity.count(), 0U);
+}
+
 TEST_F(NodeFaults, MemoryThatDoesNotSufficeCostsTheFrameAlone)
 {
   const std::string name = "little_memory";

@@ -93,6 +93,9 @@ struct DatasetOptions
   CameraOptions camera;  ///< wins over what the dataset states
   /// Which views to decode, chosen from the light field without images; all when empty.
   std::function<ViewSelection(const LightField& without_images)> selection;
+  /// Is told how many views are to be decoded and one of them, before the others are, but for some that the
+  /// layout is found from; may throw. Empty: all are welcome.
+  std::function<void(std::size_t views, const cv::Mat& one)> admit;
   bool mask_black = false;  ///< what is black up to the border of a view shows nothing of the scene
   int threads = 0;          ///< that decode images; 0 takes one per processor
 };
