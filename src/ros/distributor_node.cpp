@@ -15,6 +15,7 @@
 #include <ros/console.h>
 #include <ros/steady_timer.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <stereo_msgs/DisparityImage.h>
@@ -23,6 +24,7 @@
 #include "light_field_depth/core/error.h"
 #include "ros/node_parameters.h"
 #include "ros/set_ledger.h"
+#include "ros/view_image.h"
 #include "ros/view_input.h"
 
 namespace light_field_depth
@@ -98,17 +100,22 @@ public:
       views_.emplace_back();
       for (const ViewTopics& view : parameters_.array.views)
       {
-        views_.back().push_back(
-            node_handle_.advertise<sensor_msgs::Image>(inWorker(worker, view.image), QUEUE_SIZE));
+        views_.back().push_back(advertiseView(inWorker(worker, view.image)));
       }
     }
     forwardCameraInfos();
     addResult<stereo_msgs::DisparityImage>("disparity");
     addResult<sensor_msgs::Image>("disparity_color");
     addResult<sensor_msgs::Image>("depth");
+    addResult<sensor_msgs::Image>("depth_mm");
     addResult<sensor_msgs::Image>("confidence");
+    addResult<sensor_msgs::Image>("confidence_mono8");
     addResult<sensor_msgs::PointCloud2>("points2");
     addResult<sensor_msgs::PointCloud2>("points_dense");
+    addResult<sensor_msgs::CameraInfo>("camera_info");
+    addResult<sensor_msgs::Image>("left/image_rect_color");
+    addResult<sensor_msgs::CameraInfo>("left/camera_info");
+    addResult<sensor_msgs::CameraInfo>("right/camera_info");
     addResult<LightFieldDepthStats>(STATS);
     timer_ = private_node_handle_.createSteadyTimer(WATCH_PERIOD, &Implementation::watch, this);
   }
@@ -146,6 +153,15 @@ private:
   static std::string inWorker(const std::string& worker, const std::string& topic)
   {
     return worker + (topic.front() == '/' ? "" : "/") + topic;
+  }
+
+  /// As the images come: compressed ones are not decoded on the way.
+  ros::Publisher advertiseView(const std::string& topic)
+  {
+    return parameters_.image_transport == COMPRESSED_TRANSPORT
+               ? node_handle_.advertise<sensor_msgs::CompressedImage>(topic + "/" + COMPRESSED_TRANSPORT,
+                                                                      QUEUE_SIZE)
+               : node_handle_.advertise<sensor_msgs::Image>(topic, QUEUE_SIZE);
   }
 
   /// To all workers, latched for those that come later.
@@ -261,9 +277,14 @@ private:
       ledger_.give(*worker, nanoseconds(stamp), wantedTopics(), std::chrono::steady_clock::now());
       for (std::size_t view = 0; view < set.images.size(); ++view)
       {
-        if (set.images[view])
+        const ViewImage& image = set.images[view];
+        if (image.compressed() != nullptr)
         {
-          views_[*worker][view].publish(set.images[view].raw());
+          views_[*worker][view].publish(image.compressed());
+        }
+        else if (image.raw() != nullptr)
+        {
+          views_[*worker][view].publish(image.raw());
         }
       }
     }

@@ -141,7 +141,7 @@ void checkTransport(const ros::NodeHandle& node_handle, const std::string& trans
 }
 
 /// Which sets there are.
-void readSets(ParameterReader& reader, NodeParameters& parameters)
+void readSets(const ros::NodeHandle& node_handle, ParameterReader& reader, NodeParameters& parameters)
 {
   XmlRpc::XmlRpcValue array;
   if (reader.read("array", array))
@@ -153,6 +153,11 @@ void readSets(ParameterReader& reader, NodeParameters& parameters)
   reader.read("keep_all", parameters.keep_all);
   reader.readInRange("keep_all_limit", 1, MAX_QUEUE, parameters.keep_all_limit);
   reader.readInRange("patience", 0.1, MAX_SECONDS, parameters.patience_s);
+  if (reader.read("image_transport", parameters.image_transport) &&
+      parameters.image_transport != COMPRESSED_TRANSPORT)
+  {
+    checkTransport(node_handle, parameters.image_transport);
+  }
 }
 
 }  // namespace
@@ -165,7 +170,7 @@ std::size_t queueCapacity(const NodeParameters& parameters)
 NodeParameters readSetParameters(const ros::NodeHandle& private_node_handle, NodeParameters defaults)
 {
   ParameterReader reader(private_node_handle);
-  readSets(reader, defaults);
+  readSets(private_node_handle, reader, defaults);
   return defaults;
 }
 
@@ -173,7 +178,7 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
 {
   NodeParameters parameters;
   ParameterReader reader(private_node_handle);
-  readSets(reader, parameters);
+  readSets(private_node_handle, reader, parameters);
   parameters.camera_infos = readCameraInfos(parameters.array);
   reader.read("use_camera_info", parameters.use_camera_info);
   parameters.calibration = readCalibration(reader);
@@ -198,11 +203,6 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   {
     throw InputError(
         "rectify is true, but use_camera_info is false; views are rectified by their CameraInfo.");
-  }
-  if (reader.read("image_transport", parameters.image_transport) &&
-      parameters.image_transport != COMPRESSED_TRANSPORT)
-  {
-    checkTransport(private_node_handle, parameters.image_transport);
   }
   reader.read("check_order", parameters.check_order);
   reader.readInRange("min_views", 0, static_cast<int>(parameters.array.views.size()), parameters.min_views);

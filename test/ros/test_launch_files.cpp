@@ -89,19 +89,28 @@ TEST(LaunchFiles, StartAManagerOfTheirOwnNameOnlyWhenNoneIsNamed)
 TEST(LaunchFiles, HaveTheSameArguments)
 {
   const std::set<std::string> differs = {"rviz", "rviz_config", "defaults"};
-  // A robot has arrays and a frame of its own.
-  const std::set<std::string> differs_on_robots = {"array", "array_file", "fixed_frame"};
+  const std::map<std::string, std::set<std::string>> differs_in = {
+      {"array.launch", {"array", "array_file", "fixed_frame"}},  // those of robots
+      {"distributed.launch", {"respawn"}},                       // who is lost is used again
+      {"rectified_array.launch", {"array"}}};                    // follows rows and columns
+  const std::map<std::string, std::set<std::string>> not_in = {
+      {"distributed.launch", {"temporal", "manager"}}};  // workers know no last frame
   const auto expected = argumentsOf("launch/depth.launch");
   EXPECT_GT(expected.size(), 20U);
-  for (const std::string file :
-       {"launch/play.launch", "launch/replay.launch", "launch/demo.launch", "launch/array.launch"})
+  const auto has_name = [](const auto& sets, const std::string& file, const std::string& name)
+  { return sets.count(file) != 0 && sets.at(file).count(name) != 0; };
+  for (const std::string file : {"play.launch", "replay.launch", "demo.launch", "array.launch",
+                                 "distributed.launch", "rectified_array.launch"})
   {
-    auto arguments = argumentsOf(file);
+    auto arguments = argumentsOf("launch/" + file);
     for (const auto& [name, line] : expected)
     {
+      if (has_name(not_in, file, name))
+      {
+        continue;
+      }
       ASSERT_EQ(arguments.count(name), 1U) << file << " lacks " << name;
-      const bool on_robot = file == "launch/array.launch" && differs_on_robots.count(name) != 0;
-      if (differs.count(name) == 0 && !on_robot)
+      if (differs.count(name) == 0 && !has_name(differs_in, file, name))
       {
         EXPECT_EQ(arguments[name], line) << file;
       }
@@ -124,6 +133,27 @@ TEST(LaunchFiles, PassTheirArgumentsOn)
           "use_camera_info: false", "frame_id: camera", "min_confidence: 0.5", "queue_size: 9"})
     {
       EXPECT_TRUE(has(parameters, std::string("/front/") + parameter)) << launch << " " << parameter;
+    }
+  }
+}
+
+TEST(LaunchFiles, PassTheirArgumentsToEveryWorkerAndToTheDistributor)
+{
+  const std::string parameters = parametersOf(
+      "distributed.launch workers:=2 name:=front sync_tolerance:=0.25 image_transport:=compressed "
+      "threads:=3 preset:=fast min_confidence:=0.5 frame_id:=camera");
+  for (const char* const parameter :
+       {"/front/sync_tolerance: 0.25", "/front/image_transport: compressed", "/front/workers: 2"})
+  {
+    EXPECT_TRUE(has(parameters, parameter)) << parameter;
+  }
+  for (const char* const worker : {"/worker_0", "/worker_1"})
+  {
+    for (const char* const parameter :
+         {"image_transport: compressed", "threads: 3", "multiview_preset: fast", "min_confidence: 0.5",
+          "frame_id: camera", "keep_all: true", "multiview_temporal: false"})
+    {
+      EXPECT_TRUE(has(parameters, std::string(worker) + "/light_field_depth/" + parameter)) << parameter;
     }
   }
 }

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <stereo_msgs/DisparityImage.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "array_fixture.h"
 #include "light_field_depth/LightFieldDepthStats.h"
@@ -110,6 +113,45 @@ TEST_F(DistributedTest, TwoWorkersGiveTheBitsOfOneNodeInOrderAndOneMayDie)
   const std::size_t of_second = second_stats.count();
   EXPECT_TRUE(runUntil(array, [&] { return second_stats.count() > of_second + 1; })) << "it is used again";
   expectRisingStamps(results.all());
+}
+
+TEST_F(DistributedTest, CompressedViewsStayCompressedOnTheirWay)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3));
+  private_ = ros::NodeHandle("/spread_compressed");
+  XmlRpc::XmlRpcValue array;
+  ASSERT_TRUE(ros::param::get("/spread/array", array));
+  private_.setParam("array", array);
+  private_.setParam("workers", std::vector<std::string>{"/worker_2"});
+  private_.setParam("image_transport", std::string("compressed"));
+  ros::param::set("/worker_2/light_field_depth/image_transport", std::string("compressed"));
+  const std::unique_ptr<DepthNode> worker = startWorker(2);
+  DistributorNode distributor(root_, private_);
+  ArrayPublisher infos(root_, scene.light_field, true);
+  std::vector<ros::Publisher> publishers;
+  std::vector<sensor_msgs::CompressedImage> images(3);
+  for (std::size_t view = 0; view < images.size(); ++view)
+  {
+    publishers.push_back(root_.advertise<sensor_msgs::CompressedImage>(
+        "view_0_" + std::to_string(view) + "/image_rect_color/compressed", 5));
+    images[view].format = "bgr8; png compressed bgr8";
+    cv::imencode(".png", scene.light_field.views[view].image, images[view].data);
+  }
+  infos.publishInfos(stamp_, [](std::size_t) { return true; });
+  const DisparityListener disparity(private_, "disparity");
+  const Listener<sensor_msgs::CameraInfo> info(private_, "right/camera_info");
+  EXPECT_TRUE(waitFor(
+      [&]
+      {
+        stamp_ += ros::Duration(0.1);
+        for (std::size_t view = 0; view < images.size(); ++view)
+        {
+          images[view].header.stamp = stamp_;
+          publishers[view].publish(images[view]);
+        }
+        return waitFor([&] { return disparity.count() > 0 && info.count() > 0; },
+                       std::chrono::milliseconds(200));
+      }));
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ namespace light_field_depth
 class DistributorNode
 {
 public:
-  /// Reads the parameters array, workers (a list of namespaces), sync_tolerance, queue_size, patience and
-  /// keep_all.
+  /// Reads the parameters array, workers (a list of namespaces), sync_tolerance, queue_size, patience,
+  /// keep_all and image_transport.
   /// @throw InputError for parameters that cannot be used, before anything is advertised
   DistributorNode(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle);
   ~DistributorNode();
