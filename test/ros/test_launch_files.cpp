@@ -53,7 +53,9 @@ TEST(LaunchFiles, AllLoad)
 
 std::string parametersOf(const std::string& launch)
 {
-  return runProgram("roslaunch --dump-params launch/" + launch).output;
+  const Outcome outcome = runProgram("roslaunch --dump-params launch/" + launch);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  return outcome.output;
 }
 
 bool has(const std::string& text, const std::string& part)
@@ -183,8 +185,9 @@ TEST(LaunchFiles, TakePathsWithSpacesAndApostrophes)
 TEST(LaunchFiles, LeaveToTheArraysFileWhatIsNotGiven)
 {
   const testing::TemporaryFolder folder;
-  const std::string file = (folder.path() / "mine.yaml").string();
-  std::ofstream(file) << "array: {rows: 3, columns: 3}\nsync_tolerance: 0.125\nmultiview_temporal: false\n"
+  const std::string path = (folder.path() / "mine.yaml").string();
+  const std::string file = testing::quoted(path);
+  std::ofstream(path) << "array: {rows: 3, columns: 3}\nsync_tolerance: 0.125\nmultiview_temporal: false\n"
                          "keep_all: false\ndense_cloud_voxel_size_m: 0.5\n";
   for (const char* const launch :
        {"depth.launch", "replay.launch bag:=file.bag", "demo.launch bag:=file.bag", "array.launch"})
