@@ -36,7 +36,8 @@ fail()
   exit 1
 }
 
-# measure LABEL FILE PRODUCT...: one row of the table.
+# measure LABEL FILE PRODUCT...: one row of the table, of BAG, with LAUNCH_ARGUMENTS.
+LAUNCH_ARGUMENTS=()
 measure()
 {
   local label=$1 file=$2
@@ -45,14 +46,15 @@ measure()
   for setting in "${SETTINGS[@]}"; do
     rosparam set "/light_field_depth/${setting%%=*}" "${setting#*=}"
   done
-  roslaunch light_field_depth depth.launch voxel_size:="$VOXEL_SIZE" temporal:="$TEMPORAL" >"$SCRATCH/node.log" 2>&1 &
+  roslaunch light_field_depth depth.launch voxel_size:="$VOXEL_SIZE" temporal:="$TEMPORAL" \
+    "${LAUNCH_ARGUMENTS[@]}" >"$SCRATCH/node.log" 2>&1 &
   launch=$!
   PIDS+=("$launch")
   "$TOOLS/stats_report" --label "$label" --output "$RESULTS/$file.json" --products "$@" >>"$SCRATCH/table.md" &
   report=$!
   PIDS+=("$report")
   # The node subscribes to the images once somebody listens to its stats.
-  timeout $((FRAMES / RATE + 60)) rosbag play --quiet --wait-for-subscribers "$SCRATCH/light_field.bag" \
+  timeout $((FRAMES / RATE + 60)) rosbag play --quiet --wait-for-subscribers "$BAG" \
     >"$SCRATCH/play.log" 2>&1 || fail "The bag could not be played."
   wait "$report" || fail "The node gave no stats."
   kill -INT "$launch"
@@ -60,9 +62,17 @@ measure()
   tail -n 1 "$SCRATCH/table.md" >&2
 }
 
+# write_bag NAME OPTION...: of the demo, BAG from here on.
+write_bag()
+{
+  BAG=$SCRATCH/$1
+  shift
+  "$TOOLS/dataset_to_bag" --input "$TOP/data/demo" --output "$BAG" --count "$FRAMES" --rate "$RATE" "$@" >&2
+}
+
 mkdir -p "$RESULTS"
 say "writing a bag of $FRAMES frames at $RATE Hz"
-"$TOOLS/dataset_to_bag" --input "$TOP/data/demo" --output "$SCRATCH/light_field.bag" --count "$FRAMES" --rate "$RATE" >&2
+write_bag light_field.bag
 roscore -p "$PORT" >"$SCRATCH/master.log" 2>&1 &
 PIDS+=($!)
 wait_until 30 master_answers || { say "The ROS master did not come up within 30 s."; exit 1; }
@@ -76,5 +86,10 @@ measure "disparity, points2" node_points2 disparity points2
 measure "disparity, points2, points_dense" node_points_dense disparity points2 points_dense
 VOXEL_SIZE=0.01
 measure "the same, voxels of 1 cm" node_voxels disparity points2 points_dense
+VOXEL_SIZE=0.0
+rm "$BAG"
+write_bag compressed.bag --jpeg 90
+LAUNCH_ARGUMENTS=(preset:=realtime image_transport:=compressed)
+measure "disparity, of JPEGs, realtime" node_compressed disparity
 mv "$SCRATCH/table.md" "$RESULTS/node.md"
 cat "$RESULTS/node.md"

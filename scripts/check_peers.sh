@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# What stereo_image_proc, depth_image_proc, pcl_ros, topic_tools and rosbag make of the node's results, held against the
-# node's own (test/peers). After ./run build, with source devel/setup.bash; needs those packages
-# (Debian: apt-get install libstereo-image-proc-dev libdepth-image-proc-dev pcl-ros-tools topic-tools python3-rosbag).
+# What stereo_image_proc, depth_image_proc, pcl_ros, image_view, topic_tools and rosbag make of the node's results, held
+# against the node's own (test/peers). After ./run build, with source devel/setup.bash; needs those packages
+# (Debian: apt-get install libstereo-image-proc-dev libdepth-image-proc-dev pcl-ros-tools ros-image-view topic-tools python3-rosbag).
 #
 # usage: check_peers.sh
 set -euo pipefail
 TOP=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-for package in light_field_depth stereo_image_proc depth_image_proc pcl_ros topic_tools rosbag; do
+for package in light_field_depth stereo_image_proc depth_image_proc pcl_ros image_view topic_tools rosbag; do
   rospack find "$package" >/dev/null 2>&1 ||
     { echo "check_peers: the package '$package' is not there; see the head of this script." >&2; exit 2; }
 done

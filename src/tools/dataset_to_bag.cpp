@@ -1,10 +1,15 @@
+#include <cstddef>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <cv_bridge/cv_bridge.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/files.h"
@@ -21,25 +26,60 @@ struct BagOptions
   std::string file;
   int count = 10;
   bool compress = false;
+  int jpeg_quality = 0;  ///< of images as the compressed transport has them; 0: raw images
 };
+
+/// The image of each view as the compressed transport has it; none for raw ones.
+std::vector<sensor_msgs::CompressedImage> compressedImages(const std::vector<ViewMessages>& views,
+                                                           int jpeg_quality)
+{
+  std::vector<sensor_msgs::CompressedImage> images;
+  if (jpeg_quality > 0)
+  {
+    for (const ViewMessages& view : views)
+    {
+      const cv_bridge::CvImageConstPtr image = cv_bridge::toCvShare(view.image);
+      if (image->image.depth() != CV_8U)
+      {
+        throw InputError("--jpeg is given, but the images have more than 8 bits; leave it out.");
+      }
+      sensor_msgs::CompressedImage compressed;
+      compressed.header = view.image->header;
+      compressed.format = image->encoding + "; jpeg compressed " + image->encoding;
+      cv::imencode(".jpg", image->image, compressed.data, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+      images.push_back(std::move(compressed));
+    }
+  }
+  return images;
+}
 
 /// Frames from now on, all alike.
 void writeFrames(const std::vector<ViewMessages>& views, const BagOptions& options, double rate_hz,
                  const InterruptionGuard& guard, rosbag::Bag& bag)
 {
   bag.setCompression(options.compress ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed);
+  std::vector<sensor_msgs::CompressedImage> compressed = compressedImages(views, options.jpeg_quality);
   const ros::WallTime now = ros::WallTime::now();
   const ros::Time start(now.sec, now.nsec);
   for (int frame = 0; frame < options.count; ++frame)
   {
     const ros::Time stamp = start + ros::Duration(frame / rate_hz);
-    for (const ViewMessages& view : views)
+    for (std::size_t i = 0; i < views.size(); ++i)
     {
+      const ViewMessages& view = views[i];
       guard.check();
       view.camera_info->header.stamp = stamp;
-      view.image->header.stamp = stamp;
       bag.write(view.camera_info_topic, stamp, *view.camera_info);
-      bag.write(view.image_topic, stamp, *view.image);
+      if (compressed.empty())
+      {
+        view.image->header.stamp = stamp;
+        bag.write(view.image_topic, stamp, *view.image);
+      }
+      else
+      {
+        compressed[i].header.stamp = stamp;
+        bag.write(view.image_topic + "/compressed", stamp, compressed[i]);
+      }
     }
   }
 }
@@ -102,5 +142,8 @@ int main(int argc, char** argv)
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   app.add_flag("--compress", options.compress, "LZ4");
+  app.add_option("--jpeg", options.jpeg_quality,
+                 "Images as the compressed transport has them, of this quality, instead of raw ones")
+      ->check(CLI::Range(1, 100));
   return runTool(app, argc, argv, [&] { writeBag(input, options); });
 }

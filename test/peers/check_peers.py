@@ -6,7 +6,7 @@ usage: check_peers.py FOLDER [SECONDS]
 Run by scripts/check_peers.sh beside peers.launch. Of one frame the clouds of stereo_image_proc/point_cloud2, depth_image_proc/point_cloud_xyz and
 point_cloud_xyzrgb must be those of ~points2 within 1e-4 of their depth, the disparity of depth_image_proc/disparity that
 of ~disparity, and the depth of convert_metric ~depth within half a millimetre; topic_tools passes messages on,
-rosbag records and filters them, and pointcloud_to_pcd writes points2. Exits 1 with a sentence for each that is not so.
+rosbag records and filters them, pointcloud_to_pcd writes points2, and image_view the coloured disparity. Exits 1 with a sentence for each that is not so.
 """
 import os
 import subprocess
@@ -92,10 +92,11 @@ def check(frame, folder):
     metric = floats(frame['/peers/metric/depth'])
     metric[metric == 0] = np.nan
     problems.append(compare('convert_metric', depth, metric, np.ones_like(depth), 0.00051))
-    pcd = [name for name in os.listdir(folder) if name.endswith('.pcd')]
-    print(f'{len(pcd)} PCD files')
-    if not pcd:
-        problems.append('pointcloud_to_pcd has written nothing.')
+    for program, ending in (('pointcloud_to_pcd', '.pcd'), ('image_view', '.png')):
+        count = sum(name.endswith(ending) for name in os.listdir(folder))
+        print(f'{count} files of {program}')
+        if count == 0:
+            problems.append(f'{program} has written nothing.')
     return [problem for problem in problems if problem]
 
 

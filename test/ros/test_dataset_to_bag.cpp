@@ -8,6 +8,7 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/program.h"
@@ -65,6 +66,19 @@ TEST_F(DatasetToBag, ReplacesTheOldBagByAWholeOne)
   rosbag::Bag bag((folder_ / "out/views.bag").string());
   EXPECT_EQ(rosbag::View(bag).size(), 3U * 4U * 2U);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "out"), {}), 1);
+}
+
+TEST_F(DatasetToBag, WritesImagesAsTheCompressedTransportHasThem)
+{
+  const Outcome outcome = testing::runProgram(command("--jpeg 90"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  rosbag::Bag bag((folder_ / "out/views.bag").string());
+  rosbag::View view(bag, rosbag::TopicQuery("view_0_1/image_rect_color/compressed"));
+  ASSERT_GT(view.size(), 0U);
+  const auto image = view.begin()->instantiate<sensor_msgs::CompressedImage>();
+  ASSERT_NE(image, nullptr);
+  EXPECT_NE(image->format.find("; jpeg compressed "), std::string::npos) << image->format;
+  EXPECT_FALSE(cv::imdecode(image->data, cv::IMREAD_UNCHANGED).empty());
 }
 
 TEST_F(DatasetToBag, AFullDiskLeavesTheOldBag)
