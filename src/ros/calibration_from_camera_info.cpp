@@ -23,6 +23,8 @@ constexpr double MAX_BASELINE_DIFFERENCE = 1e-2;
 constexpr double SAME_PLACE_M = 1e-9;
 /// A view that strays from its place in the grid by more than this share of a step deserves a warning.
 constexpr double MAX_GRID_DEVIATION = 0.5;
+/// Cameras that stand farther apart are rarer than a P in millimetres. Set by hand.
+constexpr double LARGE_BASELINE_M = 5.0;
 
 /// Two numbers for each view.
 using Pairs = Eigen::Matrix<double, Eigen::Dynamic, 2>;
@@ -208,6 +210,17 @@ ArrayCalibration idealGrid(const std::vector<GridPosition>& grid, std::size_t re
   return result;
 }
 
+/// @param fields where the baseline comes from, and in what unit
+void warnOfLargeBaseline(double baseline_m, const std::string& fields, std::vector<std::string>& warnings)
+{
+  if (baseline_m > LARGE_BASELINE_M)
+  {
+    warnings.push_back("Adjacent cameras stand " + number(baseline_m) + " m apart by " + fields +
+                       ", and depths are as large; divide by 1000 if they stand " + number(baseline_m) +
+                       " mm apart.");
+  }
+}
+
 void checkCounts(std::size_t views, std::size_t infos, std::size_t reference)
 {
   if (views < 2 || infos != views || reference >= views)
@@ -299,6 +312,10 @@ ArrayCalibration calibrationFromCameraInfo(const std::vector<GridPosition>& grid
   result.calibration->disparity_offset_px = disparity_offset_px;
 
   const double row_baseline_m = rowBaseline(grid, positions).value_or(baseline_m);
+  warnOfLargeBaseline(baseline_m,
+                      one_place ? "baseline_x and baseline_y, which are in metres"
+                                : "P[3] and P[7] of the CameraInfo, which are in pixels times metres",
+                      result.warnings);
   if (!one_place)
   {
     warnOfOtherBaseline(parameters.baseline_x_m, baseline_m, "baseline_x", result.warnings);
@@ -334,6 +351,8 @@ ArrayCalibration calibrationFromParameters(const std::vector<GridPosition>& grid
       cv::Point2d(0.5 * (image_size.width - 1), 0.5 * (image_size.height - 1)));
   result.calibration->baseline_m = adjacentBaseline(grid, positions);
   result.calibration->disparity_offset_px = parameters.disparity_offset_px;
+  warnOfLargeBaseline(result.calibration->baseline_m, "baseline_x and baseline_y, which are in metres",
+                      result.warnings);
   for (const cv::Point2d& position : positions)
   {
     result.views.push_back({position / result.calibration->baseline_m, {0.0, 0.0}});

@@ -171,6 +171,22 @@ TEST(CalibrationFromCameraInfo, WarnsOfAViewFarFromItsPlace)
   EXPECT_NE(result.warnings[0].find("View (2, 2)"), std::string::npos);
 }
 
+TEST(CalibrationFromCameraInfo, WarnsOfABaselineInMillimetres)
+{
+  Array array = regularArray();
+  for (sensor_msgs::CameraInfo& info : array.infos)
+  {
+    info.P[3] *= 1000.0;
+    info.P[7] *= 1000.0;
+  }
+  const ArrayCalibration result = calibrate(array);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  for (const char* const part : {"50 m apart", "P[3]", "pixels times metres", "50 mm"})
+  {
+    EXPECT_NE(result.warnings[0].find(part), std::string::npos) << result.warnings[0];
+  }
+}
+
 TEST(CalibrationFromCameraInfo, NamesViewFieldAndRemedyOfWhatCannotBeUsed)
 {
   const auto expect = [](const std::function<void(Array&)>& spoil, const std::vector<std::string>& parts)

@@ -271,6 +271,36 @@ TEST(MultiviewEstimator, UsesPositionsOffTheGridAndOffsets)
   EXPECT_LT(testing::badPercentage(unscaled, input.truth, 0.1), 4.0);
 }
 
+TEST(MultiviewEstimator, UsesTheTruePlacesOfViewsThatAreAFifthOffTheGrid)
+{
+  // Rendered on a grid that is five times as fine.
+  constexpr int FINE = 5;
+  const int off[] = {0, 1, -1, 1, 0, -1, 1, -1, 0, 1, -1, 1, 0};
+  SceneSettings settings;
+  settings.size = {160, 128};
+  const std::vector<GridPosition> grid = testing::crossPositions(7, 7);
+  for (std::size_t i = 0; i < grid.size(); ++i)
+  {
+    const bool is_reference = grid[i] == GridPosition{3, 3};
+    settings.positions.push_back({FINE * grid[i].row + (is_reference ? 0 : off[i]),
+                                  FINE * grid[i].column + (is_reference ? 0 : off[(i + 5) % grid.size()])});
+  }
+  settings.reference = GridPosition{3 * FINE, 3 * FINE};
+  const auto texture = [](std::uint32_t seed) { return testing::noiseTexture(seed, 16.0); };
+  auto input = testing::renderScene(
+      {testing::plane(-0.2, 0.001, 0.0, texture(3)), testing::rectangle(0.35, {50, 40, 60, 50}, texture(4))},
+      settings);
+  for (std::size_t i = 0; i < grid.size(); ++i)
+  {
+    View& view = input.light_field.views[i];
+    view.steps = {view.steps.x / FINE, view.steps.y / FINE};
+    view.grid = grid[i];
+  }
+  const auto result = estimate(input.light_field, DisparityRange{-1.5F, 2.5F});
+  const cv::Mat in_fine_steps = result.disparity / FINE;
+  EXPECT_LT(testing::badPercentage(in_fine_steps, input.truth, 0.1 / FINE), 4.0);
+}
+
 TEST(MultiviewEstimator, SolvesLargeDisparitiesOfASparseArray)
 {
   SceneSettings settings;
