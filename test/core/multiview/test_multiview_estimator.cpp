@@ -288,7 +288,7 @@ TEST(MultiviewEstimator, UsesTheTruePlacesOfViewsThatAreAFifthOffTheGrid)
   settings.reference = GridPosition{3 * FINE, 3 * FINE};
   const auto texture = [](std::uint32_t seed) { return testing::noiseTexture(seed, 16.0); };
   auto input = testing::renderScene(
-      {testing::plane(-0.2, 0.001, 0.0, texture(3)), testing::rectangle(0.35, {50, 40, 60, 50}, texture(4))},
+      {testing::plane(0.6, 0.001, 0.0, texture(3)), testing::rectangle(1.1, {50, 40, 60, 50}, texture(4))},
       settings);
   for (std::size_t i = 0; i < grid.size(); ++i)
   {
@@ -296,9 +296,10 @@ TEST(MultiviewEstimator, UsesTheTruePlacesOfViewsThatAreAFifthOffTheGrid)
     view.steps = {view.steps.x / FINE, view.steps.y / FINE};
     view.grid = grid[i];
   }
-  const auto result = estimate(input.light_field, DisparityRange{-1.5F, 2.5F});
+  const auto result = estimate(input.light_field, DisparityRange{2.0F, 6.5F});
   const cv::Mat in_fine_steps = result.disparity / FINE;
-  EXPECT_LT(testing::badPercentage(in_fine_steps, input.truth, 0.1 / FINE), 4.0);
+  EXPECT_LT(testing::badPercentage(in_fine_steps, input.truth, 0.05 / FINE), 4.0)
+      << "with the places of the grid it is 16";
 }
 
 TEST(MultiviewEstimator, SolvesLargeDisparitiesOfASparseArray)
