@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Hours of load in minutes: nodelets with more to do than they can, in a manager with the programs that bring the images.
+# Load for minutes: nodelets with more to do than they can, in a manager with what brings their images.
 # Called by ./run soak, which has built the tests and sourced the package's setup file.
 #   TOOLS   folder of the package's programs        RESULTS  folder for the page of results, soak.md
 # Arguments: [SECONDS] of the longest run (600); [TESTS] a pattern of GoogleTest for some of them.
@@ -27,7 +27,8 @@ status=0
 "$TOOLS/test_load" --gtest_filter="$TESTS" >"$SCRATCH/load.log" 2>&1 || status=$?
 grep -E 'Failure|FAILED|PASSED|rror' -A 4 "$SCRATCH/load.log" >&2 || true
 mkdir -p "$RESULTS"
-mv "$LIGHT_FIELD_DEPTH_SOAK_PAGE" "$RESULTS/soak.md"
+# The table first, whichever test came first.
+{ grep '^|' "$LIGHT_FIELD_DEPTH_SOAK_PAGE"; grep -v '^|' "$LIGHT_FIELD_DEPTH_SOAK_PAGE"; } >"$RESULTS/soak.md"
 cat "$RESULTS/soak.md"
 [ $status -eq 0 ] || say "FAILED: not all bounds of test/rostest/test_load.cpp are kept"
 exit $status
