@@ -109,7 +109,7 @@ measure()
   roslaunch --port "$PORT" light_field_depth "$@" preset:="$PRESET" threads:=1 >"$SCRATCH/launch.log" 2>&1 &
   launch=$!
   PIDS+=("$launch")
-  wait_until 30 rosparam list >/dev/null 2>&1 || fail "The ROS master did not come up within 30 s."
+  wait_until 60 master_answers || fail "The ROS master did not come up within 60 s."
   rosrun light_field_depth light_field_player --input "$TOP/data/demo" --rate "$RATE_HZ" --loop true \
     >"$SCRATCH/player.log" 2>&1 &
   PIDS+=("$!")
