@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -39,6 +42,7 @@ struct Heard
   double conversion_ms = 0.0;
   double pipeline_ms = 0.0;
   double publication_ms = 0.0;
+  std::map<std::string, double> stage_ms;
   LightFieldDepthStatsConstPtr last;
   std::chrono::steady_clock::time_point last_at;
 
@@ -48,6 +52,10 @@ struct Heard
     conversion_ms += stats->conversion_ms;
     pipeline_ms += stats->pipeline_ms;
     publication_ms += stats->publication_ms;
+    for (std::size_t i = 0; i < std::min(stats->stage_names.size(), stats->stage_ms.size()); ++i)
+    {
+      stage_ms[stats->stage_names[i]] += stats->stage_ms[i];
+    }
     last = stats;
     last_at = std::chrono::steady_clock::now();
   }
@@ -96,6 +104,11 @@ nlohmann::json figuresOf(const Heard& heard, const ReportOptions& options)
 {
   const LightFieldDepthStats& last = *heard.last;
   const auto frames = static_cast<double>(heard.frames);
+  std::map<std::string, double> mean_stage_ms = heard.stage_ms;
+  for (auto& stage : mean_stage_ms)
+  {
+    stage.second /= frames;
+  }
   return {{"label", options.label},
           {"products", options.products},
           {"sets_complete", last.sets_complete},
@@ -110,7 +123,8 @@ nlohmann::json figuresOf(const Heard& heard, const ReportOptions& options)
           {"latency_longest_ms", last.recent_latency_longest_ms},
           {"mean_conversion_ms", heard.conversion_ms / frames},
           {"mean_pipeline_ms", heard.pipeline_ms / frames},
-          {"mean_publication_ms", heard.publication_ms / frames}};
+          {"mean_publication_ms", heard.publication_ms / frames},
+          {"mean_stage_ms", mean_stage_ms}};
 }
 
 /// The columns are those of scripts/bench_node.sh.
