@@ -20,7 +20,8 @@ ROOMS = ['core/base', 'core/light_field', 'core/preprocess', 'core/paper2017', '
 STRANGERS = [('core/paper2017', 'core/multiview'), ('core/multiview', 'core/paper2017'), ('ros', 'io')]
 # Public headers that have no source of their own name.
 HEADER_ROOMS = {'core/cancellation': 'core/base', 'core/enum_names': 'core/base', 'core/error': 'core/base',
-                'core/estimator': 'core/light_field', 'core/multiview_options': 'core/multiview',
+                'core/estimator': 'core/light_field', 'core/misfits': 'core/light_field',
+                'core/multiview_options': 'core/multiview',
                 'core/paper2017_options': 'core/paper2017', 'core/options_visitor': 'core/pipeline'}
 
 

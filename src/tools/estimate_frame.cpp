@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "light_field_depth/core/registration.h"
 #include "light_field_depth/core/thread_pool.h"
 #include "light_field_depth/evaluation/photometric_error.h"
 #include "light_field_depth/evaluation/verdict.h"
@@ -111,7 +112,8 @@ bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& inpu
     dense_cloud->finish();
   }
   ThreadPool pool(report.threads);
-  describeResult(result, photometricError(dataset.light_field, result.estimate.disparity, pool), report);
+  const LightField registered = registeredViews(dataset.light_field, result.estimate.registration, pool);
+  describeResult(result, photometricError(registered, result.estimate.disparity, pool), report);
 
   const Stopwatch verdict_watch;
   report.verdict = judge(dataset, result.estimate, pool);

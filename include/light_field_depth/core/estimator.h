@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/misfits.h"
 #include "light_field_depth/core/run_context.h"
 
 namespace light_field_depth
@@ -40,6 +41,9 @@ struct DisparityEstimate
   DisparityRange range;
   /// How many views took part.
   std::size_t views_used = 0;
+  /// What was put right before the search (MultiviewOptions::registration): one misfit for each view of the
+  /// light field given, none for views that took no part.
+  Registration registration;
   /// Maps that were each solved in a view of its own, the reference's first; as many as
   /// EstimateRequest::solved_maps asks for and the views allow.
   std::vector<ViewDisparity> view_disparities;

@@ -7,34 +7,11 @@
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/misfits.h"
 #include "light_field_depth/core/thread_pool.h"
 
 namespace light_field_depth
 {
-/// How far one view is from where its light field says it is. What should be seen at pixel p is seen at
-///   p + shift_px + (zoom * q.x - roll * q.y, roll * q.x + zoom * q.y),   q = p - middle of the image.
-struct ViewMisfit
-{
-  cv::Point2d shift_px;  ///< of the middle of the view
-  double roll = 0.0;     ///< radians
-  double zoom = 0.0;     ///< magnification minus 1
-};
-
-/// How well the views of a light field fit together.
-struct Registration
-{
-  /// False: the light field can be used as it is; everything else is then neutral.
-  bool differs = false;
-  /// Disparities in the columns (by View::steps.y) are step_ratio * d + step_offset_px where those in the
-  /// rows are d.
-  double step_ratio = 1.0;
-  double step_offset_px = 0.0;  ///< see step_ratio
-  /// One for each view, what the line leaves; neutral for the reference. Empty: no view is off by itself.
-  std::vector<ViewMisfit> views;
-  /// Some view is rolled or zoomed so far that its image must be resampled.
-  bool resample = false;
-};
-
 /// When views count as not fitting. Displacements are of the light field's own pixels.
 struct RegistrationOptions
 {
@@ -73,6 +50,9 @@ Registration estimateRegistration(const LightField& light_field, const Disparity
 /// are new where they had to be resampled, and shared otherwise.
 LightField correctRegistration(const LightField& light_field, const Registration& registration,
                                ThreadPool& pool);
+
+/// The same without the views of which no misfit is known where others have one.
+LightField registeredViews(const LightField& light_field, const Registration& registration, ThreadPool& pool);
 
 /// One whole sentence, with numbers, for each thing that is off; for arrays whose calibration should be
 /// better.

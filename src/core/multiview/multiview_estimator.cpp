@@ -63,6 +63,28 @@ cv::Mat ofMeasured(const DisparityEstimate& estimate)
   return seen;
 }
 
+/// Of some views, said of all.
+Registration ofAllViews(const Registration& registration, const LightField& chosen, const LightField& all)
+{
+  Registration result = registration;
+  if (registration.views.empty())
+  {
+    return result;
+  }
+  result.views.assign(all.views.size(), {});
+  for (std::size_t i = 0; i < all.views.size(); ++i)
+  {
+    for (std::size_t k = 0; k < chosen.views.size(); ++k)
+    {
+      if (chosen.views[k].grid == all.views[i].grid)
+      {
+        result.views[i] = registration.views[k];
+      }
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 ViewSelection selectionOf(const LightField& light_field, ViewSelection wanted)
@@ -122,8 +144,10 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
   }
   if (request.solved_maps > 0)
   {
-    solveOtherViews(light_field, chosen, request.solved_maps, context, estimate);
+    solveOtherViews(light_field, correctRegistration(chosen, estimate.registration, context.pool),
+                    request.solved_maps, context, estimate);
   }
+  estimate.registration = ofAllViews(estimate.registration, chosen, light_field);
   return estimate;
 }
 
@@ -145,6 +169,7 @@ void MultiviewEstimator::solveOtherViews(const LightField& light_field, const Li
   }
   MultiviewOptions options = options_;
   options.temporal = false;
+  options.registration = false;  // they stand where they are
   memory_->other_views->setOptions(options);
   EstimateRequest request;
   request.disparity_range = estimate.range;
@@ -194,6 +219,7 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
     memory_->solver.run(multiview::inSolverUnit(chosen, unit), settings, context);
   }
   estimate.range = measures.range;
+  estimate.registration = measures.registration;
   keepResult(unit, estimate);
   confirmPair(chosen, measures, context, estimate);
   if (options_.temporal && !large)
@@ -257,6 +283,7 @@ bool MultiviewEstimator::follow(const LightField& views, const EstimateRequest& 
     return false;
   }
   estimate.range = here.range;
+  estimate.registration = here.registration;
   keepResult(unit, estimate);
   confirmPair(chosen, here, context, estimate);
   memory_->sequence.keep();

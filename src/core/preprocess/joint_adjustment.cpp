@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 #include <opencv2/imgproc.hpp>
 
@@ -18,6 +19,8 @@ constexpr int PER_VIEW = 4;
 constexpr int POINTS_PER_CHUNK = 256;
 /// No step changes a disparity by more, in pixels of the farthest view.
 constexpr float MAX_MOTION_PX = 1.0F;
+/// Of Gauss and Newton, for one disparity.
+constexpr int SETTLING_STEPS = 3;
 
 /// Value and slopes of an image at a place, of pixels (value, slope along x, slope along y).
 cv::Vec3f sampleAt(const cv::Mat& image, float x, float y)
@@ -44,6 +47,20 @@ cv::Mat withSlopes(const cv::Mat& grey)
   cv::Mat result;
   cv::merge(planes.data(), planes.size(), result);
   return result;
+}
+
+std::vector<cv::Mat> slopedViews(const LightField& light_field, ThreadPool& pool)
+{
+  std::vector<cv::Mat> images(light_field.views.size());
+  pool.parallelFor(0, static_cast<int>(images.size()), 1,
+                   [&](int first, int last)
+                   {
+                     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+                     {
+                       images[i] = withSlopes(light_field.views[i].image);
+                     }
+                   });
+  return images;
 }
 
 /// Upper triangle of H and the right side, of H x = -b.
@@ -75,22 +92,16 @@ struct PointView
 class Adjuster
 {
 public:
-  Adjuster(const LightField& light_field, double expected_px, ThreadPool& pool, Adjustment& adjustment)
-      : field_(light_field), pool_(pool), adjustment_(adjustment), images_(light_field.views.size()),
+  /// @param images slopedViews()
+  Adjuster(const LightField& light_field, const std::vector<cv::Mat>& images, double expected_px,
+           ThreadPool& pool, Adjustment& adjustment)
+      : field_(light_field), pool_(pool), adjustment_(adjustment), images_(images),
         middle_(0.5F * static_cast<float>(light_field.size().width - 1),
                 0.5F * static_cast<float>(light_field.size().height - 1)),
         radius_(0.5F * std::hypot(static_cast<float>(light_field.size().width),
                                   static_cast<float>(light_field.size().height))),
         expected_px_(static_cast<float>(expected_px))
   {
-    pool.parallelFor(0, static_cast<int>(images_.size()), 1,
-                     [&](int first, int last)
-                     {
-                       for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-                       {
-                         images_[i] = withSlopes(light_field.views[i].image);
-                       }
-                     });
     for (std::size_t i = 0; i < light_field.views.size(); ++i)
     {
       if (i != light_field.reference_index)
@@ -126,7 +137,29 @@ public:
     apply(solve(parts, scale));
   }
 
-private:
+  /// Lets each point take the disparity that fits it best. @return how badly the points fit then
+  double settle(float scale)
+  {
+    const std::size_t count = adjustment_.points.size();
+    const std::size_t chunks = (count + POINTS_PER_CHUNK - 1) / POINTS_PER_CHUNK;
+    std::vector<double> sums(chunks, 0.0);
+    pool_.parallelFor(0, static_cast<int>(chunks), 1,
+                      [&](int first, int last)
+                      {
+                        for (auto chunk = static_cast<std::size_t>(first);
+                             chunk < static_cast<std::size_t>(last); ++chunk)
+                        {
+                          for (std::size_t i = chunk * POINTS_PER_CHUNK;
+                               i < std::min((chunk + 1) * POINTS_PER_CHUNK, count); ++i)
+                          {
+                            sums[chunk] += settlePoint(scale, adjustment_.points[i]);
+                          }
+                        }
+                      });
+    return std::accumulate(sums.begin(), sums.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(count, 1));
+  }
+
   /// The robust scale of the differences, from some of the points.
   float differenceScale() const
   {
@@ -154,6 +187,37 @@ private:
     // What rounding to whole levels adds: sqrt(1 / 12), the deviation of a number that is uniform over one.
     constexpr float rounding = 0.3F;
     return deviations_of_median * *middle + rounding;
+  }
+
+private:
+  /// @return the mean over the views that see the point
+  double settlePoint(float scale, AdjustedPoint& point) const
+  {
+    const float most = MAX_MOTION_PX / widest_;
+    for (int step = 0; step < SETTLING_STEPS; ++step)
+    {
+      float own = 1e-3F * scale * scale;
+      float side = 0.0F;
+      for (const std::size_t view : others_)
+      {
+        const PointView seen = look(point, view, scale);
+        own += seen.weight * seen.along * seen.along;
+        side += seen.weight * seen.along * seen.difference;
+      }
+      point.disparity -= std::clamp(side / own, -most, most);
+    }
+    double sum = 0.0;
+    int views = 0;
+    for (const std::size_t view : others_)
+    {
+      const PointView seen = look(point, view, scale);
+      if (seen.weight > 0.0F)
+      {
+        sum -= std::log(seen.weight);
+        ++views;
+      }
+    }
+    return views > 0 ? sum / views : 0.0;
   }
 
   PointView look(const AdjustedPoint& point, std::size_t index, float scale) const
@@ -310,7 +374,7 @@ private:
   const LightField& field_;
   ThreadPool& pool_;
   Adjustment& adjustment_;
-  std::vector<cv::Mat> images_;
+  const std::vector<cv::Mat>& images_;
   cv::Mat reference_;
   std::vector<std::size_t> others_;
   cv::Point2f middle_;
@@ -326,11 +390,28 @@ private:
 void adjustJointly(const LightField& light_field, double expected_px, int steps, ThreadPool& pool,
                    Adjustment& adjustment)
 {
-  Adjuster adjuster(light_field, expected_px, pool, adjustment);
+  const std::vector<cv::Mat> images = slopedViews(light_field, pool);
+  Adjuster adjuster(light_field, images, expected_px, pool, adjustment);
   for (int i = 0; i < steps && !adjustment.points.empty(); ++i)
   {
     adjuster.step();
   }
+}
+
+std::array<double, 2> compareFits(const LightField& light_field, const std::array<Adjustment, 2>& adjustments,
+                                  ThreadPool& pool)
+{
+  const std::vector<cv::Mat> images = slopedViews(light_field, pool);
+  std::array<Adjustment, 2> settled = adjustments;
+  std::array<double, 2> fits{};
+  float scale = 0.0F;
+  for (std::size_t i = 0; i < settled.size(); ++i)
+  {
+    Adjuster adjuster(light_field, images, 1.0, pool, settled[i]);
+    scale = i == 0 ? adjuster.differenceScale() : scale;
+    fits[i] = adjuster.settle(scale);
+  }
+  return fits;
 }
 
 }  // namespace light_field_depth

@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_JOINT_ADJUSTMENT_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_JOINT_ADJUSTMENT_H
 
+#include <array>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -34,6 +35,12 @@ struct Adjustment
 /// @param expected_px how far views are off, standard deviation; holds what the images do not tell
 void adjustJointly(const LightField& light_field, double expected_px, int steps, ThreadPool& pool,
                    Adjustment& adjustment);
+
+/// How badly two adjustments of the same points fit, each point at the disparity near its own that fits it
+/// best: means over points and views of a robust measure of the differences to the reference, on the scale of
+/// the first one's. Points that took no part in the adjustments tell which of the two is right.
+std::array<double, 2> compareFits(const LightField& light_field, const std::array<Adjustment, 2>& adjustments,
+                                  ThreadPool& pool);
 
 }  // namespace light_field_depth
 

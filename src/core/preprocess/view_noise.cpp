@@ -17,8 +17,8 @@ namespace
 constexpr int BLOCK = NOISE_BLOCK_PX;
 /// The nearest views that are compared, set by hand; the time grows with them. One alone cannot tell noise
 /// from texture.
-constexpr int VIEWS_COMPARED = 8;
-constexpr int MIN_VIEWS_COMPARED = 2;
+constexpr std::size_t VIEWS_COMPARED = 8;
+constexpr std::size_t MIN_VIEWS_COMPARED = 2;
 /// Blocks are compared at whole pixels. Where the shift is farther from one, texture makes a difference that
 /// is no noise. With this limit four in ten views are left, and a sixth of the variance of that difference.
 constexpr double MAX_ROUNDED_PX = 0.2;
@@ -51,18 +51,17 @@ float noiseOf(std::vector<float>& variances)
   return *quarter < MIN_ALIKE * median ? *quarter : median;
 }
 
-/// The nearest view of every direction, then the second ones.
+/// All views: the nearest one of every direction, then the second ones, and so on.
 std::vector<std::size_t> nearestOfArms(const ViewSet& views)
 {
   std::vector<std::size_t> chosen;
-  for (int k = 0; k < VIEWS_COMPARED; ++k)
+  for (int k = 0; chosen.size() < views.views.size(); ++k)
   {
     for (const Arm& arm : views.arms)
     {
-      const int view = arm.first + k;
-      if (view < arm.last && chosen.size() < VIEWS_COMPARED)
+      if (arm.first + k < arm.last)
       {
-        chosen.push_back(static_cast<std::size_t>(view));
+        chosen.push_back(static_cast<std::size_t>(arm.first + k));
       }
     }
   }
@@ -114,15 +113,18 @@ float leastVariance(const BlockPixels& reference, const View& view, const Dispar
 }
 
 /// Compares a block of prepared views at its disparity.
+/// @param chosen the nearest first; farther ones are looked at where too few of the nearest show the block
+///   near whole pixels: two plenoptic views in a row may be 0.3 to 0.7 px apart all over the image
 void compareAt(const ViewSet& views, const std::vector<std::size_t>& chosen, float disparity,
                NoiseBlock& block)
 {
   std::vector<float> values;
   std::vector<float> slopes;
   const BlockPixels reference = pixelsOf(views.reference);
-  for (const std::size_t i : chosen)
+  for (std::size_t k = 0; k < chosen.size() && (k < VIEWS_COMPARED || values.size() < MIN_VIEWS_COMPARED);
+       ++k)
   {
-    const PreparedView& view = views.views[i];
+    const PreparedView& view = views.views[chosen[k]];
     const BlockPixels pixels = pixelsOf(view.image);
     const double shift_x = view.offset_px.x - static_cast<double>(disparity) * view.steps.x;
     const double shift_y = view.offset_px.y - static_cast<double>(disparity) * view.steps.y;

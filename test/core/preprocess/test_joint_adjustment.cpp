@@ -97,6 +97,25 @@ TEST(JointAdjustment, FindsUnequalStepsOfRowsAndColumns)
   EXPECT_NEAR(adjustment.step_ratio, 1.1, 0.02);
 }
 
+TEST(JointAdjustment, PointsTellWhichOfTwoAdjustmentsIsRight)
+{
+  LightField wrong = scene().light_field;
+  const std::size_t shifted = wrong.views.size() - 1;
+  wrong.views[shifted].offset_px.x -= 0.5;
+  const Adjustment unaware = startingPoint(wrong);
+  Adjustment right = unaware;
+  right.views[shifted].shift_px.x = 0.5;
+  Adjustment worse = unaware;
+  worse.views[shifted].shift_px.x = -0.5;
+  ThreadPool pool(2);
+  const auto corrected = compareFits(wrong, {unaware, right}, pool);
+  EXPECT_LT(corrected[1], 0.8 * corrected[0]);
+  const auto made_worse = compareFits(wrong, {unaware, worse}, pool);
+  EXPECT_GT(made_worse[1], 1.1 * made_worse[0]);
+  ThreadPool one(1);
+  EXPECT_EQ(compareFits(wrong, {unaware, right}, one), corrected);
+}
+
 TEST(JointAdjustment, WithoutPointsNothingHappens)
 {
   Adjustment adjustment;

@@ -93,6 +93,51 @@ TEST(Registration, LeavesCleanScenesExactlyAlone)
   }
 }
 
+/// What noise looks like does not hold for other points.
+TEST(Registration, LeavesNoisyScenesAlone)
+{
+  ThreadPool pool(2);
+  cv::RNG random(3);
+  for (const double sigma : {3.0, 6.0, 10.0})
+  {
+    LightField noisy = scene().light_field;
+    for (View& view : noisy.views)
+    {
+      cv::Mat noise(view.image.size(), CV_16SC3);
+      random.fill(noise, cv::RNG::NORMAL, 0.0, sigma);
+      cv::Mat image;
+      cv::add(view.image, noise, image, {}, CV_8U);
+      view.image = image;
+    }
+    EXPECT_FALSE(estimateRegistration(noisy, RANGE, pool).differs) << sigma;
+  }
+}
+
+TEST(Registration, AnEstimateTellsWhatItPutRight)
+{
+  const LightField wrong = withWrongSteps(scene().light_field, 0.93, 0.1);
+  PipelineOptions options;
+  options.disparity_range = RANGE;
+  options.multiview.registration = true;
+  const DisparityEstimate estimate = Pipeline(2).run(wrong, options, {}).estimate;
+  EXPECT_NEAR(estimate.registration.step_ratio, 0.93, 0.01);
+  LightField shifted = scene().light_field;
+  for (std::size_t i = 0; i < shifted.views.size(); ++i)
+  {
+    shifted.views[i].offset_px += i == shifted.reference_index ? cv::Point2d() : scatter(i, 0.2);
+  }
+  View unused = shifted.views.front();
+  unused.grid = {6, 6};
+  unused.steps = {3.0, 3.0};
+  shifted.views.push_back(unused);
+  const Registration found = Pipeline(2).run(shifted, options, {}).estimate.registration;
+  ASSERT_EQ(found.views.size(), shifted.views.size());
+  EXPECT_EQ(found.views.back().shift_px, cv::Point2d()) << "not in the row or column of the reference";
+  ThreadPool pool(2);
+  EXPECT_EQ(registeredViews(shifted, found, pool).views.size(), shifted.views.size() - 1);
+  EXPECT_EQ(registeredViews(shifted, {}, pool).views.size(), shifted.views.size());
+}
+
 TEST(Registration, FindsUnequalStepsOfRowsAndColumns)
 {
   ThreadPool pool(2);

@@ -83,6 +83,39 @@ TEST(ViewNoise, SlopesAreMeasuredAboutEachPixel)
   EXPECT_NEAR(noise.local_slope_variance.at<float>(100, 120), of_slopes, 0.3 * of_slopes);
 }
 
+/// Plenoptic views may be 0.3 to 0.7 px apart all over the image: the nearest two of each direction then show
+/// no block near whole pixels.
+TEST(ViewNoise, IsMeasuredInFartherViewsWhereTheNearestDoNotTell)
+{
+  constexpr double sigma = 3.0;
+  constexpr int reach = 4;
+  cv::RNG random(11);
+  std::vector<View> views;
+  for (int row = 0; row <= 2 * reach; ++row)
+  {
+    for (int column = 0; column <= 2 * reach; ++column)
+    {
+      if (row == reach || column == reach)
+      {
+        cv::Mat noise(120, 160, CV_16SC3);
+        random.fill(noise, cv::RNG::NORMAL, 0.0, sigma);
+        cv::Mat image;
+        cv::add(cv::Mat(noise.size(), CV_16SC3, cv::Scalar(90, 120, 150)), noise, image, {}, CV_8U);
+        views.push_back(gridView(row, column, image));
+      }
+    }
+  }
+  const LightField blank = makeLightField(views, GridPosition{reach, reach});
+  ThreadPool pool(2);
+  ViewSet prepared;
+  ViewSetSettings settings;
+  settings.range = {0.0F, 1.0F};
+  prepareViews(blank, settings, pool, prepared);
+  ViewNoise noise;
+  measureViewNoise(prepared, cv::Mat(blank.size(), CV_32FC1, cv::Scalar(0.7F)), pool, noise);
+  EXPECT_NEAR(noise.value_variance, sigma * sigma, 0.2 * sigma * sigma);
+}
+
 TEST(ViewNoise, IsNoneWhereTooLittleCanBeCompared)
 {
   LightField wall = noisyWall(3.0, 0.0);

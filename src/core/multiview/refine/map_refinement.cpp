@@ -49,7 +49,10 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
     return;
   }
   SmoothingSettings smoothing = settings.smoothing;
-  smoothing.strength *= 1.0F + settings.strength_per_variance * noise_.value_variance;
+  const float more = 1.0F + settings.strength_per_variance * noise_.value_variance;
+  smoothing.strength *= more;
+  NoiseDiscountSettings discount = settings.noise_discount;
+  discount.max_weight *= more;
   {
     const StageTimer timer(context, "smooth");
     smoother_.setGuide(input.guide, smoothing, context.pool);
@@ -60,7 +63,7 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
     LinearizationSettings linearization = settings.linearization;
     linearization.one_channel =
         i == 1 && !is_last && noise_.value_variance <= settings.one_channel_max_variance;
-    linearize(input, linearization, settings.noise_discount, context, disparity);
+    linearize(input, linearization, discount, context, disparity);
     const StageTimer timer(context, "smooth");
     smoothing.follow_slopes = is_last;
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity);

@@ -21,7 +21,9 @@ struct NoiseDiscountSettings
   /// a tenth or two.
   float nothing_below = 1.15F;
   float full_from = 1.4F;
-  float max_weight = 400.0F;  ///< of one pixel, so that strong texture does not outvote all smoothness
+  /// Of one pixel where there is no noise, so that strong texture does not outvote all smoothness: what views
+  /// get wrong together does not average out in a window. docs/experiments.md has 8 to 400.
+  float max_weight = 100.0F;
 };
 
 /// Turns the curvature of a linearisation into the weight of its data: noise makes slopes, and so looks like

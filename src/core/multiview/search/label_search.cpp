@@ -10,7 +10,7 @@ namespace
 {
 /// A later search tries the labels that the one before found within so many pixels of a tile, and so many
 /// more.
-constexpr int BAND_REACH_PX = 8;
+constexpr int BAND_REACH_PX = 4;
 constexpr float BAND_MARGIN_LABELS = 3.0F;
 /// The same for the first search of a frame that follows another one, whose objects may have moved.
 constexpr int FOLLOWED_REACH_PX = 12;
@@ -94,7 +94,7 @@ bool LabelSearch::findFirstMap(const SearchInput& input, const SearchSettings& s
   {
     return false;
   }
-  setPaths(input, pathsFor(input.labels, settings.paths, settings.first_small_change_share), context);
+  setPaths(input, pathsFor(input.labels, settings.paths), context);
   aggregate(input, settings, context, disparity);
   if (settings.detect_changes && !acceptFirstMap(input, around.empty(), disparity, context))
   {

@@ -26,8 +26,6 @@ struct SearchSettings
   /// The labels of the first search are so many times as far apart: it has to find the surfaces, not their
   /// shapes. 1 takes a fifth more time, 4 (half a pixel) makes demo's BadPix 0.07 14.2 % of 11.5.
   float first_label_step_share = 2.0F;
-  /// Of P1 in the first search: 1 and 1.5 are within 2 %, below the textureless wall of the demo comes near.
-  float first_small_change_share = 1.3F;
   /// Of P1 and P2 in the last search. The first one has to find the surfaces from costs that occlusions
   /// spoil; the last one knows who sees what, and may follow their shapes and contours more freely.
   float last_small_change_share = 1.5F;
