@@ -114,8 +114,9 @@ print(elements[0][1], point['x'], point['nz'], point['red'], point['blue'], poin
   {
     GTEST_SKIP() << "there is no Python here";
   }
-  const testing::Outcome outcome = testing::runProgram("/usr/bin/python3 " + (folder / "read.py").string() +
-                                                       " " + (folder / "cloud.ply").string());
+  const testing::Outcome outcome =
+      testing::runProgram("/usr/bin/python3 " + testing::quoted((folder / "read.py").string()) + " " +
+                          testing::quoted((folder / "cloud.ply").string()));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output, "10000 9999.0 0.800000011920929 15 30 5 0.25\n");
 }

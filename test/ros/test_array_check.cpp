@@ -199,8 +199,9 @@ testing::Outcome runOnBag(CheckedArray& array, const testing::TemporaryFolder& f
   }
   folder.write("array.yaml", "array: {rows: 1, columns: 3}\n");
   return testing::runProgram(std::string(CHECK_ARRAY_PROGRAM) + " --array-file " +
-                             (folder / "array.yaml").string() + " --bag " + bag_file + " --write " +
-                             (folder / "checked.yaml").string());
+                             testing::quoted((folder / "array.yaml").string()) + " --bag " +
+                             testing::quoted(bag_file) + " --write " +
+                             testing::quoted((folder / "checked.yaml").string()));
 }
 
 TEST(ArrayCheck, TheProgramGivesAVerdictAnExitCodeAndAFile)
@@ -216,7 +217,8 @@ TEST(ArrayCheck, TheProgramGivesAVerdictAnExitCodeAndAFile)
   EXPECT_NE(apart.output.find("This array does not work yet"), std::string::npos) << apart.output;
   const testing::Outcome mended =
       testing::runProgram(std::string(CHECK_ARRAY_PROGRAM) + " --array-file " +
-                          (folder / "checked.yaml").string() + " --bag " + (folder / "array.bag").string());
+                          testing::quoted((folder / "checked.yaml").string()) + " --bag " +
+                          testing::quoted((folder / "array.bag").string()));
   EXPECT_EQ(mended.exit_code, 0) << "with the sync_tolerance that it wrote: " << mended.output
                                  << mended.errors;
 }

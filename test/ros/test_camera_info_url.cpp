@@ -49,7 +49,8 @@ TEST(CameraInfoUrl, FilesOfCalibrateArrayAreRead)
   folder.write("camchain.yaml", CAMCHAIN);
   const testing::Outcome outcome =
       testing::runProgram(std::string(CALIBRATE_ARRAY_PROGRAM) + " --camchain " +
-                          (folder / "camchain.yaml").string() + " --output " + (folder / "out").string());
+                          testing::quoted((folder / "camchain.yaml").string()) + " --output " +
+                          testing::quoted((folder / "out").string()));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("2 cameras, 100.0 mm wide"), std::string::npos) << outcome.output;
   ViewArray array;
