@@ -387,7 +387,7 @@ LightField correctRegistration(const LightField& light_field, const Registration
 
 LightField registeredViews(const LightField& light_field, const Registration& registration, ThreadPool& pool)
 {
-  const LightField corrected = correctRegistration(light_field, registration, pool);
+  LightField corrected = correctRegistration(light_field, registration, pool);
   if (registration.views.empty())
   {
     return corrected;
