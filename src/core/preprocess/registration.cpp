@@ -126,16 +126,18 @@ std::vector<AdjustedPoint> thinned(const std::vector<AdjustedPoint>& points, std
   return kept;
 }
 
-/// At most so many, between those that thinned() keeps.
-std::vector<AdjustedPoint> between(const std::vector<AdjustedPoint>& points, std::size_t most)
+/// Takes every fifth point out, for a test of what the others tell.
+std::vector<AdjustedPoint> takeOutTested(std::vector<AdjustedPoint>& points)
 {
+  constexpr std::size_t every = 5;
+  std::vector<AdjustedPoint> tested;
   std::vector<AdjustedPoint> kept;
-  const std::size_t stride = (points.size() + most - 1) / most;
-  for (std::size_t i = stride / 2; i < points.size(); i += stride)
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    kept.push_back(points[i]);
+    (i % every == every / 2 ? tested : kept).push_back(points[i]);
   }
-  return kept;
+  points = kept;
+  return tested;
 }
 
 /// The same at a resolution that is halved so many times: the four pixels in the middle of each point's cell.
@@ -321,15 +323,16 @@ Registration estimateRegistration(const LightField& light_field, const Disparity
   const LightField small = reducedViews(light_field, halvings, pool);
   Adjustment adjustment;
   adjustment.views.resize(light_field.views.size());
-  const std::vector<AdjustedPoint> points = matchedPoints(small, range, pool);
+  std::vector<AdjustedPoint> points = matchedPoints(small, range, pool);
   if (points.size() < MIN_POINTS)
   {
     return {};
   }
+  const std::vector<AdjustedPoint> tested = takeOutTested(points);
   adjustment.points = thinned(points, FEW_POINTS);
   Adjustment others;
   others.views.resize(light_field.views.size());
-  others.points = between(points, TESTED_POINTS);
+  others.points = thinned(tested, TESTED_POINTS);
   const double scale = std::ldexp(1.0, halvings) * options.pixel_size;
   adjustJointly(small, options.expected_px / scale, FIRST_STEPS, pool, adjustment);
   const cv::Size size(static_cast<int>(full.width * options.pixel_size),
