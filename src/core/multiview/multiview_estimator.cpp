@@ -63,6 +63,14 @@ cv::Mat ofMeasured(const DisparityEstimate& estimate)
   return seen;
 }
 
+/// Where a light field has the view at a place of the grid.
+std::size_t indexOf(const LightField& light_field, const GridPosition& grid)
+{
+  const auto found = std::find_if(light_field.views.begin(), light_field.views.end(),
+                                  [&](const View& view) { return view.grid == grid; });
+  return static_cast<std::size_t>(found - light_field.views.begin());
+}
+
 /// Of some views, said of all.
 Registration ofAllViews(const Registration& registration, const LightField& chosen, const LightField& all)
 {
@@ -72,15 +80,9 @@ Registration ofAllViews(const Registration& registration, const LightField& chos
     return result;
   }
   result.views.assign(all.views.size(), {});
-  for (std::size_t i = 0; i < all.views.size(); ++i)
+  for (std::size_t i = 0; i < chosen.views.size(); ++i)
   {
-    for (std::size_t k = 0; k < chosen.views.size(); ++k)
-    {
-      if (chosen.views[k].grid == all.views[i].grid)
-      {
-        result.views[i] = registration.views[k];
-      }
-    }
+    result.views[indexOf(all, chosen.views[i].grid)] = registration.views[i];
   }
   return result;
 }
@@ -179,11 +181,8 @@ void MultiviewEstimator::solveOtherViews(const LightField& light_field, const Li
   {
     const DisparityEstimate other =
         memory_->other_views->estimate(turnedTo(chosen, views[i]), request, apart);
-    const auto place =
-        std::find_if(light_field.views.begin(), light_field.views.end(),
-                     [&](const View& view) { return view.grid == chosen.views[views[i]].grid; });
     estimate.view_disparities.push_back(
-        {static_cast<std::size_t>(place - light_field.views.begin()), other.disparity, ofMeasured(other)});
+        {indexOf(light_field, chosen.views[views[i]].grid), other.disparity, ofMeasured(other)});
   }
 }
 
