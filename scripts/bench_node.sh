@@ -27,14 +27,7 @@ done
 
 NAME="bench --node"
 . "$TOP/scripts/own_ros.sh"
-
-# fail SENTENCE: with what the programs said last.
-fail()
-{
-  tail -n 20 "$SCRATCH"/{node,play}.log >&2
-  say "$1"
-  exit 1
-}
+LOGS=("$SCRATCH"/{node,play}.log)
 
 # measure LABEL FILE PRODUCT...: one row of the table, of BAG, with LAUNCH_ARGUMENTS.
 LAUNCH_ARGUMENTS=()

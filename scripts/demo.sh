@@ -17,6 +17,7 @@ done
 
 NAME=demo
 . "$TOP/scripts/own_ros.sh"
+LOGS=("$SCRATCH/roslaunch.log")
 . "$TOP/scripts/virtual_display.sh"
 
 mkdir -p "$OUTPUT"
@@ -31,14 +32,6 @@ say "starting the nodelet and RViz"
 roslaunch --port "$PORT" light_field_depth demo.launch bag:="$SCRATCH/demo.bag" >"$SCRATCH/roslaunch.log" 2>&1 &
 LAUNCH=$!
 PIDS+=("$LAUNCH")
-
-# fail SENTENCE: with what the launch said last.
-fail()
-{
-  tail -n 30 "$SCRATCH/roslaunch.log" >&2
-  say "$1"
-  exit 1
-}
 
 launch_answers()
 {

@@ -20,6 +20,7 @@ if [ -z "${OWN_NETWORK:-}" ]; then
   OWN_NETWORK=1 exec unshare "${as_root[@]}" --net "$0" "$@"
 fi
 . "$TOP/scripts/own_ros.sh"
+LOGS=("$SCRATCH/launch.log")
 PATH=$PATH:/usr/sbin:/sbin
 export ROS_IP=10.77.0.1
 export ROS_MASTER_URI=http://$ROS_IP:$PORT
@@ -92,13 +93,6 @@ time.sleep(float(sys.argv[1]))
 last = len(times) - 1
 print(last - first, (last - first) / (times[last] - times[first]), flush=True)
 PYTHON
-}
-
-fail()
-{
-  tail -n 20 "$SCRATCH/launch.log" >&2
-  say "$1"
-  exit 1
 }
 
 # measure LABEL LAUNCH ARGUMENT...: one row of the table.

@@ -3,8 +3,10 @@
 # and an end to everything that they have begun. Sourced; the script sets NAME, by which it speaks, before.
 #   SCRATCH  folder that goes with the script       PORT  of the master, which the script starts
 #   PIDS     add what runs in the background; it is ended with the script
+#   LOGS     set to files whose ends fail() shows
 
 PIDS=()
+LOGS=()
 cleanup()
 {
   trap - EXIT
@@ -29,6 +31,14 @@ export ROS_MASTER_URI=http://localhost:$PORT
 say()
 {
   echo "[$NAME] $*" >&2
+}
+
+# fail SENTENCE: with what the programs said last.
+fail()
+{
+  [ ${#LOGS[@]} -eq 0 ] || tail -n 30 "${LOGS[@]}" >&2 || true
+  say "$1"
+  exit 1
 }
 
 # wait_until SECONDS COMMAND...: polls; fails when the time is over.

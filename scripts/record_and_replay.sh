@@ -8,6 +8,7 @@ TOP=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 ARRAY=${1:-grid_3x3}
 NAME=record_and_replay
 . "$TOP/scripts/own_ros.sh"
+LOGS=("$SCRATCH/launch.log")
 BAG=$(realpath "${2:-$SCRATCH/array.bag}")
 PATIENCE_S=60
 
@@ -17,14 +18,6 @@ start()
   roslaunch --port "$PORT" light_field_depth array.launch array:="$ARRAY" rviz:=false "$@" >"$SCRATCH/launch.log" 2>&1 &
   LAUNCH=$!
   PIDS+=("$LAUNCH")
-}
-
-# fail SENTENCE: with what the launch said last.
-fail()
-{
-  tail -n 20 "$SCRATCH/launch.log" >&2
-  say "$1"
-  exit 1
 }
 
 wait_for_cloud()
