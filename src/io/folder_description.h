@@ -105,6 +105,11 @@ struct FolderDescription
   std::vector<std::string> warnings;  ///< Dataset::warnings
 };
 
+/// Adds what a param.txt beside views that are named by row and column says of their grid (num_x, num_y) and
+/// of the steps between columns and rows (base_x, base_y), as the Cambridge synthetic light fields have it.
+/// Nothing if there is none, or if it says neither.
+void readGridParameters(const std::filesystem::path& folder, FolderDescription& description);
+
 /// Adds what an HCI parameters.cfg says: the grid, cameras, disparity range. @throw InputError
 void readHciParameters(const std::filesystem::path& cfg_file, FolderDescription& description);
 

@@ -11,6 +11,8 @@
 #include "io/frame_choice.h"
 #include "io/name_groups.h"
 #include "light_field_depth/core/error.h"
+#include "light_field_depth/core/index_grid.h"
+#include "light_field_depth/io/image_files.h"
 
 namespace light_field_depth
 {
@@ -190,6 +192,37 @@ FolderDescription describeFrames(const std::vector<fs::path>& folders, const Dat
   return description;
 }
 
+/// Whether the images of a folder, counted by one number, lie in the rows of a grid: no video looks like
+/// that.
+bool showsGrid(const FolderListing& listing, const DatasetOptions& options)
+{
+  constexpr std::size_t MIN_VIEWS_OF_GRID = 4;  // 2 x 2
+  Recognition recognition = recognizeIndex(listing, options);
+  if (!recognition || (*recognition).views.size() < MIN_VIEWS_OF_GRID)
+  {
+    return false;
+  }
+  const auto& views = (*recognition).views;
+  const int count = static_cast<int>(views.size());
+  std::vector<cv::Mat> thumbnails;
+  for (int i = 0; i < thumbnailsForRunLength(count); ++i)
+  {
+    thumbnails.push_back(thumbnailOf(readImage(views[static_cast<std::size_t>(i)].path)));
+    if (thumbnails.back().size() != thumbnails.front().size())
+    {
+      return false;
+    }
+  }
+  const RunLength run = findRunLength(thumbnails, count);
+  return run.length > 0 && run.length < count;
+}
+
+bool isCameraName(const fs::path& folder)
+{
+  const std::string form = takeApart(folder.filename()).form;
+  return form.find("cam") != std::string::npos || form.find("view") != std::string::npos;
+}
+
 /// Whether the images of a folder are a light field by themselves.
 bool holdsLightField(const FolderListing& listing, const DatasetOptions& options)
 {
@@ -199,7 +232,8 @@ bool holdsLightField(const FolderListing& listing, const DatasetOptions& options
     return recognition && (*recognition).views.size() >= 2;
   };
   return isFile(listing.folder / "light_field.yaml") || claims(recognizeHci) || claims(recognizePositions) ||
-         claims(recognizeRowsAndColumns) || claims(recognizeFourDigits);
+         claims(recognizeRowsAndColumns) || claims(recognizeFourDigits) ||
+         (!isCameraName(listing.folder) && showsGrid(listing, options));
 }
 
 }  // namespace

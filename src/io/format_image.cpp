@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <regex>
 
 #include "io/dataset_format.h"
@@ -48,7 +50,9 @@ void leaveOutDarkViews(const cv::Mat& image, FolderDescription& description)
     return mean[0] + mean[1] + mean[2];
   };
   std::vector<ViewFile>& views = description.views;
-  const double least = MIN_BRIGHTNESS_OVER_MIDDLE * brightness(views[views.size() / 2]);
+  const cv::Size grid = views.front().part.grid;
+  const std::size_t middle = static_cast<std::size_t>(grid.height / 2) * grid.width + grid.width / 2;
+  const double least = MIN_BRIGHTNESS_OVER_MIDDLE * brightness(views[middle]);
   const std::size_t all = views.size();
   views.erase(std::remove_if(views.begin(), views.end(),
                              [&](const ViewFile& view) { return brightness(view) < least; }),
@@ -89,6 +93,28 @@ FolderDescription describeQuilt(const std::filesystem::path& file, const cv::Siz
   return description;
 }
 
+/// Whether the name says that it is a table of lenslets: flower_eslf.png.
+bool isNamedEslf(const std::filesystem::path& file)
+{
+  std::string stem = file.stem().string();
+  std::transform(stem.begin(), stem.end(), stem.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return stem.find("eslf") != std::string::npos;
+}
+
+/// Those of the Lytro cameras, by the size of the image alone; nothing if neither divides it.
+std::optional<cv::Size> lensletsOfSize(const cv::Size& size)
+{
+  for (const int side : {14, 15})
+  {
+    if (size.width % side == 0 && size.height % side == 0)
+    {
+      return cv::Size(side, side);
+    }
+  }
+  return std::nullopt;
+}
+
 Recognition recognizeParts(const std::filesystem::path& file, const DatasetOptions& options)
 {
   const cv::Mat image = readImage(file);
@@ -107,7 +133,12 @@ Recognition recognizeParts(const std::filesystem::path& file, const DatasetOptio
   {
     return describeQuilt(file, *quilt);
   }
-  if (const auto lenslets = findLenslets(image))
+  auto lenslets = findLenslets(image);
+  if (!lenslets && isNamedEslf(file))
+  {
+    lenslets = lensletsOfSize(image.size());
+  }
+  if (lenslets)
   {
     FolderDescription description = describeParts(file, *lenslets, ViewPart::Kind::Lenslet);
     description.notes.push_back("'" + file.filename().string() + "' is read as lenslets of " +

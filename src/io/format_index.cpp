@@ -12,10 +12,13 @@ namespace
 /// Numbers with more gaps than this are stamps of time and the like: only their order counts.
 constexpr long long MAX_SPAN_OVER_COUNT = 12;
 
-/// The last number that tells all files apart.
+/// The number that tells all files apart with the fewest gaps, as stamps of time have many; the last of
+/// several.
 std::optional<std::size_t> indexPlace(const NameGroup& group)
 {
   const std::vector<std::size_t> varying = group.varying();
+  std::optional<std::size_t> best;
+  long long best_span = 0;
   for (auto place = varying.rbegin(); place != varying.rend(); ++place)
   {
     std::vector<long long> numbers;
@@ -24,12 +27,15 @@ std::optional<std::size_t> indexPlace(const NameGroup& group)
       numbers.push_back(name.numbers[*place]);
     }
     std::sort(numbers.begin(), numbers.end());
-    if (std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end())
+    const bool unique = std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
+    const long long span = numbers.back() - numbers.front();
+    if (unique && (!best || span < best_span))
     {
-      return *place;
+      best = *place;
+      best_span = span;
     }
   }
-  return std::nullopt;
+  return best;
 }
 
 }  // namespace

@@ -15,17 +15,21 @@ namespace
 {
 namespace fs = std::filesystem;
 
+bool isLetter(char letter)
+{
+  return std::isalpha(static_cast<unsigned char>(letter)) != 0;
+}
+
 /// The words of a name and what stands between them, in order: a word ends where letters end, and before a
 /// capital behind a small letter, so that imgL has two.
 std::vector<std::string> partsOf(const std::string& name)
 {
-  const auto is_letter = [](char letter) { return std::isalpha(static_cast<unsigned char>(letter)) != 0; };
   const auto is_small = [](char letter) { return std::islower(static_cast<unsigned char>(letter)) != 0; };
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < name.size(); ++i)
   {
-    const bool goes_on = i > 0 && is_letter(name[i]) && is_letter(name[i - 1]) &&
-                         !(is_small(name[i - 1]) && !is_small(name[i]));
+    const bool goes_on =
+        i > 0 && isLetter(name[i]) && isLetter(name[i - 1]) && !(is_small(name[i - 1]) && !is_small(name[i]));
     if (!goes_on)
     {
       parts.emplace_back();
@@ -64,6 +68,37 @@ struct Pair
   fs::path right;
 };
 
+/// Two images, and nothing else that could be a view, whose names differ in one letter: camA and camB.
+std::optional<FolderDescription> describeLetters(const FolderListing& listing)
+{
+  std::vector<fs::path> images;
+  std::vector<fs::path> others;
+  for (const fs::path& image : listing.images)
+  {
+    (saysNoView(image.stem().string()) ? others : images).push_back(image);
+  }
+  if (images.size() != 2)
+  {
+    return std::nullopt;
+  }
+  const std::string a = images[0].stem().string();
+  const std::string b = images[1].stem().string();
+  const auto differ = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  if (a.size() != b.size() || differ.first == a.end() || !isLetter(*differ.first) ||
+      !isLetter(*differ.second) || !std::equal(differ.first + 1, a.end(), differ.second + 1))
+  {
+    return std::nullopt;
+  }
+  FolderDescription description;
+  description.format = "stereo";
+  description.place_claim = PlaceClaim::TwoNumbers;
+  description.notes = leftOutNotes(others);
+  description.notes.push_back("'" + images[0].filename().string() + "' is taken for the left view, '" +
+                              images[1].filename().string() + "' for the right one.");
+  description.views = {{images[0], {0, 0}, {}}, {images[1], {0, 1}, {}}};
+  return description;
+}
+
 bool sortsPairBefore(const Pair& a, const Pair& b)
 {
   return sortsBefore(a.name, b.name);
@@ -99,6 +134,10 @@ Recognition recognizeLeftRight(const FolderListing& listing, const DatasetOption
                                     [](const fs::path& path) { return !saysNoView(path.stem().string()); });
   if (pairs.empty() || rivals > static_cast<std::ptrdiff_t>(pairs.size()))
   {
+    if (auto letters = describeLetters(listing))
+    {
+      return std::move(*letters);
+    }
     return Recognition::no("no two names differ in left and right alone");
   }
   std::sort(pairs.begin(), pairs.end(), sortsPairBefore);

@@ -24,6 +24,17 @@ FolderDescription describe(const ViewNames& names)
   return description;
 }
 
+/// Whether only the last of more than two numbers varies: 2024-05-01_12-00-00_17. It may count a row, or a
+/// whole grid, which the images tell.
+bool isIndexBesideOthers(const NameGroup& group)
+{
+  constexpr std::size_t MIN_VIEWS_OF_GRID = 4;  // 2 x 2
+  const std::vector<std::size_t> varying = group.varying();
+  const std::size_t numbers = group.names.front().numbers.size();
+  return numbers > 2 && varying.size() == 1 && varying.front() + 1 == numbers &&
+         group.names.size() >= MIN_VIEWS_OF_GRID;
+}
+
 /// The one number that varies, if all names write it with 2 or 4 digits.
 struct DigitPlace
 {
@@ -68,12 +79,17 @@ Recognition recognizeRowsAndColumns(const FolderListing& listing, const DatasetO
   {
     return Recognition::no("--grid says that one number names the views");
   }
+  if (isIndexBesideOthers(names->group))
+  {
+    return Recognition::no("one of several numbers counts the images");
+  }
   FolderDescription description = describe(*names);
   for (const NumberedName& name : names->group.names)
   {
     description.views.push_back(
         {name.path, {toInt(name.numbers[places->first]), toInt(name.numbers[places->second])}, {}});
   }
+  readGridParameters(listing.folder, description);
   return description;
 }
 

@@ -95,7 +95,11 @@ std::vector<std::string> missingNote(std::size_t missing)
 
 Recognition recognizeTransforms(const FolderListing& listing, const DatasetOptions& /*options*/)
 {
-  const fs::path file = listing.folder / "transforms.json";
+  fs::path file = listing.folder / "transforms.json";
+  if (!isFile(file))
+  {
+    file = listing.folder / "transforms_train.json";  // the part to learn from, where there are several
+  }
   if (!isFile(file))
   {
     return Recognition::no("there is no transforms.json");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
 #include <map>
 #include <set>
 #include <string_view>
@@ -53,6 +54,12 @@ std::set<long long> numbersAt(const NameGroup& group, std::size_t place)
     numbers.insert(name.numbers[place]);
   }
   return numbers;
+}
+
+double spanAt(const NameGroup& group, std::size_t place)
+{
+  const std::set<long long> numbers = numbersAt(group, place);
+  return static_cast<double>(*numbers.rbegin() - *numbers.begin()) + 1.0;
 }
 
 bool pairsAreUnique(const NameGroup& group, std::size_t first, std::size_t second)
@@ -142,8 +149,10 @@ std::optional<std::pair<std::size_t, std::size_t>> rowAndColumnIn(const NameGrou
     const bool is_pair = count >= 2 && digits[second - 1] == digits[second] && digits[second] <= 3;
     return is_pair ? std::make_optional(std::make_pair(second - 1, second)) : std::nullopt;
   }
+  // Of several that fill their grids alike, those with the fewest gaps: exposures and the like have many.
   std::optional<std::pair<std::size_t, std::size_t>> best;
   double best_part = MIN_FILLED_PART;
+  double best_span = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < varying.size(); ++i)
   {
     for (std::size_t j = i + 1; j < varying.size(); ++j)
@@ -151,9 +160,12 @@ std::optional<std::pair<std::size_t, std::size_t>> rowAndColumnIn(const NameGrou
       const auto rows = static_cast<double>(numbersAt(group, varying[i]).size());
       const auto columns = static_cast<double>(numbersAt(group, varying[j]).size());
       const double part = static_cast<double>(group.names.size()) / (rows * columns);
-      if (part >= best_part && pairsAreUnique(group, varying[i], varying[j]))
+      const double span = spanAt(group, varying[i]) * spanAt(group, varying[j]);
+      if ((part > best_part || (part == best_part && span <= best_span)) &&
+          pairsAreUnique(group, varying[i], varying[j]))
       {
         best_part = part;
+        best_span = span;
         best = std::make_pair(varying[i], varying[j]);
       }
     }

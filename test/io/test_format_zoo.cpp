@@ -71,6 +71,13 @@ std::vector<Animal> namedByRowAndColumn()
             }),
       named("upper case", [](int r, int c) { return "VIEW_" + padded(r, 2) + "_" + padded(c, 2) + ".PNG"; }),
       named("cam0101 in full", [](int r, int c) { return "cam" + padded(r, 2) + padded(c, 2) + ".png"; }),
+      named("an exposure beside them",
+            [](int r, int c) {
+              return "cam_" + padded(r, 1) + "_" + padded(c, 1) + "_exp" + padded(1000 + 13 * r, 4) + ".png";
+            }),
+      {"param.txt beside them", FIVE, "grid",
+       both(grid(FIVE, [](int r, int c) { return padded(r, 2) + "_" + padded(c, 2) + ".png"; }),
+            text("param.txt", "num_x 5\nnum_y 5\nbase_x 0.1\nbase_y 0.1\n"))},
       named("spaces and letters beyond ASCII", [](int r, int c)
             { return "B\u00FCste \u82B1 (" + padded(r, 1) + ", " + padded(c, 1) + ").png"; }),
       named("thumbnails, masks and truth beside it",
@@ -94,6 +101,14 @@ std::vector<Animal> namedByIndex()
        grid(FIVE, [=](int r, int c) { return padded(index(r, c) + 1, 4) + ".png"; })},
       {"lowtoys001.bmp", FIVE, "index",
        grid(FIVE, [=](int r, int c) { return "lowtoys" + padded(index(r, c) + 1, 3) + ".bmp"; })},
+      {"a date before it", FIVE, "index",
+       grid(FIVE, [=](int r, int c) { return "2024-05-01_12-00-00_" + padded(index(r, c), 2) + ".png"; })},
+      {"a stamp behind it", FIVE, "index",
+       grid(FIVE,
+            [=](int r, int c) {
+              return "cam" + padded(index(r, c), 2) + "_" + padded(1699999000 + 40 * index(r, c), 10) +
+                     ".png";
+            })},
       {"back and forth", FIVE, "index",
        grid(FIVE, [=](int r, int c)
             { return "IMG_" + padded(index(r, r % 2 == 0 ? c : SIDE - 1 - c), 4) + ".png"; })},
@@ -120,6 +135,9 @@ std::vector<Animal> namedByIndex()
        grid(FIVE, [](int r, int c) { return "cam_" + padded(r, 1) + padded(c, 1) + "/img.png"; })},
       {"cameras named by row and column", FIVE, "grid of folders",
        grid(FIVE, [](int r, int c) { return "cam_" + padded(r, 2) + "_" + padded(c, 2) + "/0001.png"; })},
+      {"a folder for each frame, in numbers, of views with an index", FIVE, "index",
+       both(grid(FIVE, [=](int r, int c) { return "0000/" + padded(index(r, c), 3) + ".png"; }),
+            grid(FIVE, [=](int r, int c) { return "0001/" + padded(index(r, c), 3) + ".png"; }))},
       {"a folder for each frame", FIVE, "grid",
        both(
            grid(FIVE, [](int r, int c) { return "frame_001/" + padded(r, 2) + "_" + padded(c, 2) + ".png"; }),
@@ -159,6 +177,7 @@ std::vector<Animal> pairs()
       {"view1 and view5", PAIR, "index", both(pair("view1.png", "view5.png"), extraImage("disp1.png"))},
       {"left and right", PAIR, "stereo", pair("left.png", "right.png")},
       {"L and R", PAIR, "stereo", pair("scene_L.png", "scene_R.png")},
+      {"A and B", PAIR, "stereo", pair("camA.png", "camB.png")},
       {"imgL and imgR", PAIR, "stereo", pair("imgL.png", "imgR.png")},
       {"leftImage and rightImage", PAIR, "stereo", pair("leftImage.png", "rightImage.png")},
       {"KITTI", PAIR, "kitti",

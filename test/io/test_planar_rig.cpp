@@ -140,6 +140,16 @@ TEST(PlanarRig, TransformsGivePlacesAndCalibration)
   expectGrid(readDataset(folder.path()), "transforms");
 }
 
+TEST(PlanarRig, TheViewsToTrainWithAreReadWhereThereAreSeveralParts)
+{
+  const TemporaryFolder folder;
+  writeImages(folder, "train/");
+  folder.write("transforms_test.json", "{}");
+  folder.write("transforms_train.json", "{\"fl_x\": 100, \"cx\": 40, \"cy\": 32, \"w\": 80, \"h\": 64, " +
+                                            framesText("file_path", "transform_matrix", "./train/") + "}");
+  expectGrid(readDataset(folder.path()), "transforms");
+}
+
 TEST(PlanarRig, TheAddOnOfIdLabGivesPlacesAndCalibration)
 {
   const TemporaryFolder folder;
