@@ -127,6 +127,19 @@ TEST(Dataset, ReadsRowsAndColumnsInEveryFormOfName)
   }
 }
 
+TEST(Dataset, ReadsNumbersBelowZero)
+{
+  const TemporaryFolder folder;
+  writeGrid(folder, 3, 3,
+            [](int row, int column)
+            { return "view_" + twoDigits(row) + "_" + std::to_string(column - 1) + ".png"; });
+  const LightField light_field = readDataset(folder.path()).light_field;
+  ASSERT_EQ(light_field.views.size(), 9U);
+  EXPECT_EQ(light_field.reference().grid, (GridPosition{1, 0}));
+  EXPECT_EQ(cv::mean(light_field.reference().image)[0], testing::levelOf(1, 1));
+  expectSteps(light_field, 3, 3, [](int row, int column) { return cv::Point2d(column - 1, row - 1); });
+}
+
 TEST(Dataset, CountsStepsOfTheNumberingAlsoAcrossGaps)
 {
   const TemporaryFolder folder;

@@ -42,8 +42,8 @@ struct PipelineOptions
 {
   Method method = Method::Multiview;          ///< which estimator finds the disparity
   ViewSelection views = ViewSelection::Auto;  ///< which views take part
-  /// In pixels per grid step; found from the images when absent. A range that moves everything out of every
-  /// view is refused.
+  /// In pixels per grid step; found from the images when absent. No disparity leaves a range that is given. A
+  /// range that moves everything out of every view is refused.
   std::optional<DisparityRange> disparity_range;
   Paper2017Options paper2017;  ///< for Method::Paper2017
   MultiviewOptions multiview;  ///< for Method::Multiview

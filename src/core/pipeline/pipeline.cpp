@@ -59,6 +59,26 @@ PointAllocator allocatorOr(const PointAllocator& allocator, std::vector<ColoredP
   };
 }
 
+/// Refinement lets the slopes of surfaces go on a little beyond the ends of the range; a range that was given
+/// is a promise, so that the maps end there.
+void keepInRange(const DisparityRange& range, DisparityEstimate& estimate)
+{
+  const auto limit = [&range](cv::Mat& map)
+  {
+    for (int y = 0; y < map.rows; ++y)
+    {
+      auto* const row = map.ptr<float>(y);
+      std::transform(row, row + map.cols, row,
+                     [&range](float value) { return std::clamp(value, range.min, range.max); });
+    }
+  };
+  limit(estimate.disparity);
+  for (ViewDisparity& view : estimate.view_disparities)
+  {
+    limit(view.disparity);
+  }
+}
+
 }  // namespace
 
 std::string toString(Method method)
@@ -220,6 +240,10 @@ PipelineResult Pipeline::run(const LightField& light_field, const PipelineOption
   const LightField shown = colours ? toEightBit(known) : known;
   PipelineResult result;
   result.estimate = estimatorFor(options).estimate(shown, estimate_request, context);
+  if (options.disparity_range)
+  {
+    keepInRange(*options.disparity_range, result.estimate);
+  }
   invalidateMasked(shown, result.estimate);
   if (request.view_maps)
   {

@@ -164,6 +164,35 @@ TEST(Pipeline, RefusesADisparityRangeInWhichNothingCanBeSeen)
   }
 }
 
+/// Surfaces that go on beyond a range that is given end there, in the maps of all views.
+TEST(Pipeline, KeepsTheMapsInARangeThatIsGiven)
+{
+  const auto input = scene();
+  Pipeline pipeline(2);
+  ProductRequest request;
+  request.dense_cloud = true;
+  PipelineOptions options;
+  options.disparity_range = DisparityRange{-0.4F, 0.45F};  // of -1.2..2
+  for (const Method method : {Method::Multiview, Method::Paper2017})
+  {
+    options.method = method;
+    const DisparityEstimate estimate = pipeline.run(input.light_field, options, request).estimate;
+    std::vector<cv::Mat> maps = {estimate.disparity};
+    for (const ViewDisparity& view : estimate.view_disparities)
+    {
+      maps.push_back(view.disparity);
+    }
+    for (const cv::Mat& map : maps)
+    {
+      double min = 0.0;
+      double max = 0.0;
+      cv::minMaxLoc(map, &min, &max);
+      EXPECT_GE(min, options.disparity_range->min) << toString(method);
+      EXPECT_LE(max, options.disparity_range->max) << toString(method);
+    }
+  }
+}
+
 /// What no view tells is known as filled, and is in no product but the map unless it is asked for.
 TEST(Pipeline, KnowsWhatItFills)
 {
