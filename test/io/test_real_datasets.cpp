@@ -6,13 +6,16 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/geometry.h"
 #include "light_field_depth/io/dataset.h"
+#include "light_field_depth/io/image_files.h"
 #include "light_field_depth/io/pfm.h"
+#include "support/temporary_folder.h"
 
 namespace light_field_depth
 {
@@ -194,6 +197,34 @@ TEST(RealDatasets, FlippingTurnsNearAndFarRound)
     const LightField light_field = readDataset(folder, options).light_field;
     EXPECT_GT(sign * (bestDisparity(light_field, doll, 8.0) - bestDisparity(light_field, poster, 8.0)), 2.0)
         << toString(flip);
+  }
+}
+
+TEST(RealDatasets, SwappedPairsAreReadTheRightWayRound)
+{
+  for (const auto& [left, right] :
+       {std::make_pair("stereo/eth3d_playground/im0.png", "stereo/eth3d_playground/im1.png"),
+        std::make_pair("stereo/art/view1.png", "stereo/art/view5.png")})
+  {
+    if (!std::filesystem::exists(DATA / left))
+    {
+      GTEST_SKIP() << DATA / left << " is not here";
+    }
+    for (const bool swapped : {false, true})
+    {
+      SCOPED_TRACE(std::string(left) + (swapped ? ", swapped" : ""));
+      const testing::TemporaryFolder folder;
+      std::filesystem::copy_file(DATA / left, folder / (swapped ? "right.png" : "left.png"));
+      std::filesystem::copy_file(DATA / right, folder / (swapped ? "left.png" : "right.png"));
+      const Dataset dataset = readDataset(folder.path());
+      EXPECT_EQ(dataset.flip, swapped ? Flip::Columns : Flip::None);
+      ASSERT_EQ(dataset.warnings.size(), swapped ? 1U : 0U);
+      EXPECT_TRUE(!swapped || dataset.warnings.front().find("swapped") != std::string::npos);
+      // The left camera has the smaller column.
+      const LightField& pair = dataset.light_field;
+      const View& first = pair.views[pair.views[0].steps.x < pair.views[1].steps.x ? 0 : 1];
+      EXPECT_EQ(cv::norm(first.image, readImage(DATA / left), cv::NORM_INF), 0.0);
+    }
   }
 }
 
