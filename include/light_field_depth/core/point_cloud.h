@@ -70,8 +70,8 @@ struct DenseCloudOptions
   int maps = 1;
   /// For those with time: what `estimate` takes for the cloud in a file.
   static constexpr int MAPS_WITH_TIME = 5;
-  /// Of one map, points of lower confidence are left out; of several, points on which not all agree need
-  /// confidences that add up to five times as much. Raise it when the cloud has stray points.
+  /// Of one map, points of lower confidence are left out; of several, two must agree, and the nearest map be
+  /// so sure, or the weights add up to five times that. Raise it when the cloud has stray points.
   float min_confidence = 0.1F;
   /// Edge of the cubes inside which points are merged into their mean, weighted by confidence, in metres; 0
   /// keeps every point. Raise it when the cloud is too large to transport or to show.

@@ -137,6 +137,53 @@ TEST(DenseCloud, NeedsTheVotesOfSeveralMaps)
   EXPECT_TRUE(cloudOf({constantMap(CENTRE, 2.0F), constantMap(3, 1.0F), constantMap(5, 3.0F)}).empty());
 }
 
+ViewDisparity constantMap(std::size_t view, float disparity, float confidence)
+{
+  ViewDisparity map = constantMap(view, disparity);
+  map.confidence.setTo(confidence);
+  return map;
+}
+
+TEST(DenseCloud, AgreementOfUnsureMapsIsNotEnough)
+{
+  const auto of_confidence = [](float confidence)
+  {
+    return cloudOf({constantMap(CENTRE, 2.0F, confidence), constantMap(3, 2.0F, confidence),
+                    constantMap(5, 2.0F, confidence)});
+  };
+  EXPECT_TRUE(of_confidence(0.05F).empty());
+  EXPECT_FALSE(of_confidence(0.15F).empty());
+}
+
+TEST(DenseCloud, KeepsWhatOutlinesOfOtherMapsHide)
+{
+  // A board before a wall. In the maps of the other views it is a row too large above and below.
+  std::vector<ViewDisparity> maps = {constantMap(CENTRE, 1.0F), constantMap(3, 1.0F, 0.9F),
+                                     constantMap(5, 1.0F, 0.9F)};
+  maps[0].disparity(cv::Rect(20, 15, 20, 15)).setTo(3.0F);
+  maps[1].disparity(cv::Rect(23, 14, 20, 17)).setTo(3.0F);
+  maps[2].disparity(cv::Rect(17, 14, 20, 17)).setTo(3.0F);
+  std::size_t alone = 0;
+  for (const DensePoint& point : cloudOf(maps))
+  {
+    if (point.views == 1)
+    {
+      ++alone;
+      ASSERT_NEAR(point.z, 10.0 / 6.0, 1e-4);
+    }
+  }
+  EXPECT_GE(alone, std::size_t{40}) << "the two rows of the view in the middle, 20 pixels wide";
+  // Where no other map shows that wall, it is a contradiction.
+  for (std::size_t i = 1; i < maps.size(); ++i)
+  {
+    maps[i].disparity.setTo(3.0F);
+  }
+  for (const DensePoint& point : cloudOf(maps))
+  {
+    ASSERT_NEAR(point.z, 10.0 / 8.0, 1e-4);
+  }
+}
+
 TEST(DenseCloud, DropsWhatASureMapSeesThrough)
 {
   // Two maps have a board that the third, which is sure, does not see: it looks at the wall behind.
