@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "light_field_depth/core/pipeline.h"
+#include "support/instruction_sets.h"
 #include "support/synthetic_scene.h"
 
 namespace light_field_depth
@@ -201,6 +203,25 @@ TEST(Threads, OfAnyNumberGiveTheSameBytes)
       const cv::Mat many = disparityOf(light_field, preset, threads);
       EXPECT_EQ(cv::norm(one, many, cv::NORM_INF), 0.0) << preset << ", " << threads;
     }
+  }
+}
+
+class InstructionSets : public testing::InstructionSetTest
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Every, InstructionSets, testing::everyInstructionSet(), testing::instructionSetName);
+
+TEST_P(InstructionSets, GiveTheSameBytesInEveryRun)
+{
+  static std::map<std::string, cv::Mat> maps;  // of the first set
+  const LightField light_field = standardLightField().light_field;
+  for (const char* const preset : {"quality", "fast"})
+  {
+    const cv::Mat here = disparityOf(light_field, preset);
+    const cv::Mat& first = maps.emplace(preset, here).first->second;
+    EXPECT_EQ(cv::norm(first, here, cv::NORM_INF), 0.0) << preset;
+    EXPECT_EQ(cv::norm(here, disparityOf(light_field, preset), cv::NORM_INF), 0.0) << preset << ", again";
   }
 }
 
