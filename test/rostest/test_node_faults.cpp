@@ -210,6 +210,25 @@ TEST_F(NodeFaults, ADiskThatIsFullWhileSavingCostsTheSavedResultAlone)
                            }));
 }
 
+TEST_F(NodeFaults, AFolderThatNobodyMayWriteCostsTheSavedResultAlone)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), SMALL);
+  ArrayPublisher array(*array_space_, scene.light_field);
+  setParameter("save_directory", "/proc/saved results");  // not even root may
+  startNode(scene.light_field, {}, saveResult);
+  const DisparityListener disparity(*node_space_, "disparity");
+  const Listener<diagnostic_msgs::DiagnosticArray> diagnostics(*node_space_, "/diagnostics");
+  ASSERT_TRUE(publishUntil(array, [&] { return disparity.count() > 0; }));
+  std_srvs::Trigger call;
+  ASSERT_TRUE(ros::service::call(node_space_->getNamespace() + "/save", call));
+  EXPECT_TRUE(publishUntil(array,
+                           [&] {
+                             return diagnosed(diagnostics, {"could not be saved", "/proc/saved results"});
+                           }));
+  const std::size_t before = disparity.count();
+  EXPECT_TRUE(publishUntil(array, [&] { return disparity.count() > before; }));
+}
+
 TEST_F(NodeFaults, SetsThatMayNeedMoreMemoryThanAllowedAreRefused)
 {
   const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), SMALL);
