@@ -12,7 +12,7 @@ option(LIGHT_FIELD_DEPTH_FETCH "Fetch Highway, CLI11 and nlohmann-json even wher
 
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs video OPTIONAL_COMPONENTS calib3d)
 find_package(Eigen3 REQUIRED)
-find_package(PCL REQUIRED COMPONENTS common io)
+find_package(Boost REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(Threads REQUIRED)
@@ -65,10 +65,23 @@ lfd_find_or_fetch(hwy 1.0 hwy::hwy hwy
   URL https://github.com/google/highway/archive/refs/tags/1.0.7.tar.gz
   SHA256 5434488108186c170a5e2fca5e3c9b6ef59a1caa4d520b008a9b8be6b8abe6c5)
 get_target_property(LFD_HWY_IMPORTED hwy::hwy IMPORTED)
+# On ARM: NEON alone, as vectors whose length is known at run time only (SVE) can be no members of a struct, as they are in
+# our kernels. Highway gives its functions the target "+crypto"; GCC would refuse to inline them into the constructors that it
+# makes for these structs, which stay without it. No instruction of that extension is used.
+set(LFD_HWY_DEFINITIONS)
+set(LFD_HWY_OPTIONS)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  set(LFD_HWY_DEFINITIONS "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
+  set(LFD_HWY_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-march=armv8-a+crypto>)
+endif()
 if(LFD_HWY_IMPORTED)
-  set_target_properties(hwy::hwy PROPERTIES INTERFACE_COMPILE_DEFINITIONS "")  # HWY_SHARED_DEFINE is for Windows
+  # Without HWY_SHARED_DEFINE, which is for Windows.
+  set_target_properties(hwy::hwy PROPERTIES INTERFACE_COMPILE_DEFINITIONS "${LFD_HWY_DEFINITIONS}")
+  set_property(TARGET hwy::hwy APPEND PROPERTY INTERFACE_COMPILE_OPTIONS ${LFD_HWY_OPTIONS})
 else()
   set_target_properties(hwy PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_definitions(hwy INTERFACE ${LFD_HWY_DEFINITIONS})
+  target_compile_options(hwy INTERFACE ${LFD_HWY_OPTIONS})
 endif()
 lfd_find_or_fetch(CLI11 2.0 CLI11::CLI11 CLI11
   NAME cli11

@@ -3,6 +3,7 @@ find_package(catkin REQUIRED COMPONENTS
   camera_calibration_parsers cv_bridge diagnostic_updater dynamic_reconfigure geometry_msgs image_geometry image_transport
   message_generation nodelet pcl_conversions pcl_ros pluginlib rosbag roscpp roslib sensor_msgs std_msgs std_srvs stereo_msgs tf2_ros)
 
+find_package(PCL REQUIRED COMPONENTS common io)
 find_package(OpenCV REQUIRED COMPONENTS core)  # all that the public headers need
 
 include(cmake/ros_interfaces.cmake)

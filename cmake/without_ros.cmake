@@ -1,5 +1,10 @@
 # A CMake package of its own: the libraries without ROS, their headers and a package configuration.
 message(STATUS "Without ROS: the libraries core, evaluation and io, and the programs estimate and evaluate")
+if(BUILD_TESTING)
+  enable_testing()
+  find_package(GTest REQUIRED)
+endif()
+
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
