@@ -18,10 +18,11 @@ constexpr int ROWS_PER_CHUNK = 16;
 constexpr float MIN_DROP_PX = 0.08F;
 /// A region moves back only if its energy stays below this share, its matching cost rises by less than this
 /// share of itself, and by less than this a pixel. The matching cost tells blank regions from dark ones: it
-/// rises by 0 to 5 % where blank walls move back (array/dolls, demo), by 20 to 26 % where the dark floor of
-/// antinous would go to the wall behind. Energies from 0.95 to 1.1 give the same maps within 3 %.
+/// rises by 0 to 3 % where blank walls move back (array/dolls, demo, lytro/general_11), by 6 to 26 % where
+/// the dark floor of antinous would go to the wall behind, the less the more noise adds to both. Energies
+/// from 0.95 to 1.1 give the same maps within 3 %.
 constexpr double MAX_ENERGY_SHARE = 1.1F;
-constexpr double MAX_DATA_RISE = 0.1F;
+constexpr double MAX_DATA_RISE = 0.045F;
 constexpr double MAX_COST_RISE = 4.0F;
 
 /// The cost between two labels of the pixel's band.
