@@ -23,6 +23,11 @@ constexpr float MAX_BLUR_PX = 1.2F;
 constexpr float TRUNCATION_PER_SIGMA = 10.0F;
 constexpr float PENALTY_PER_SIGMA = 10.0F;
 constexpr float CONTRAST_PER_SIGMA = 6.0F;
+/// Of boundary pixels, docs/experiments.md: what is gained at 1.1 levels and more, as cameras and their
+/// demosaicing leave them, is lost on clean renders, which have up to 0.5.
+constexpr float NOISY_RELATIVE_SPREAD = 0.8F;  // 0.6 and 1.2 are as good within 3 %
+constexpr float SPREADING_SIGMA = 0.7F;
+constexpr float SPREAD_SIGMA = 1.1F;
 constexpr int MAX_TRUNCATION = 60;             // reached by noise of 25 levels
 constexpr float NOISY_LABEL_STEP_PX = 0.125F;  // finer ones are below what noise lets see
 /// From here on the frame takes longer (docs/experiments.md has what that is worth).
@@ -35,6 +40,9 @@ constexpr int WIDE_WINDOW_RADIUS = 4;  // 3 and 5 are as good within 2 %
 void adaptToNoise(float noise_sigma, SolverSettings& settings)
 {
   settings.noise_sigma = noise_sigma;
+  float& spread = settings.boundary_pixels.max_relative_spread;
+  spread += (NOISY_RELATIVE_SPREAD - spread) *
+            std::clamp((noise_sigma - SPREADING_SIGMA) / (SPREAD_SIGMA - SPREADING_SIGMA), 0.0F, 1.0F);
   if (noise_sigma < CLEAN_SIGMA)
   {
     return;

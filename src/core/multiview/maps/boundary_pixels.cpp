@@ -17,7 +17,6 @@ constexpr int RADIUS = 2;
 /// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;
 constexpr float MIN_JUMP_PX = 0.2F;            // of the disparity in 3 x 3 pixels, to be an edge
-constexpr float MAX_RELATIVE_SPREAD = 0.3F;    // of the nearer side's colours, in units of the contrast
 constexpr float MIN_FOREGROUND_SHARE = 0.32F;  // pixels with less of the nearer surface go to the farther one
 /// Weight of pixels that stand at the edge themselves: their colours are mixed.
 constexpr float EDGE_WEIGHT = 0.02F;
@@ -164,7 +163,8 @@ private:
     {
       residual += std::abs(colour[c] - background[c] - share * (foreground[c] - background[c]));
     }
-    return near.spread() + residual <= MAX_RELATIVE_SPREAD * contrast && share < MIN_FOREGROUND_SHARE;
+    return near.spread() + residual <= settings_.max_relative_spread * contrast &&
+           share < MIN_FOREGROUND_SHARE;
   }
 
   const PlanarImage& image_;

@@ -14,6 +14,10 @@ namespace light_field_depth::multiview
 struct BoundaryPixelSettings
 {
   float min_contrast = 20.0F;  ///< between the two sides, summed over three channels of 0..255
+  /// Of the nearer side's colours and of what the pixel's colour is beside the mixtures of the two, in units
+  /// of the contrast. Where noise and the blur against it spread all colours more is worth its errors
+  /// (docs/experiments.md).
+  float max_relative_spread = 0.3F;
 };
 
 /// Gives edge pixels that are mostly background the disparity of the background.
