@@ -25,6 +25,9 @@ struct Registration
   /// rows are d.
   double step_ratio = 1.0;
   double step_offset_px = 0.0;  ///< see step_ratio
+  /// Disparities in the rows are so much more than those of the light field put right: nobody knows whether
+  /// rows or columns are as they should be, so both move, by what moves all views least.
+  double row_offset_px = 0.0;
   /// One for each view, what the line leaves; neutral for the reference. Empty: no view is off by itself.
   std::vector<ViewMisfit> views;
   /// Some view is rolled or zoomed so far that its image must be resampled.

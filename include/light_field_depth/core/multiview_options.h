@@ -57,9 +57,9 @@ struct MultiviewOptions
   float refinement_smoothness = 200.0F;
   /// Measure from the images how far views stand out of place (shifts, rolls, zooms, unequal steps of rows
   /// and columns), and put them right before the search where points that took no part agree better with it;
-  /// not with the preset fast. Set it where rectification is poor; it takes a twentieth of the time where
-  /// nothing is off, and as long as the search where something is.
-  bool registration = false;
+  /// not with the preset fast. It takes a twentieth of the time where nothing is off, and as long as the
+  /// search where something is: the ROS node, whose cameras are calibrated, has it off.
+  bool registration = true;
   /// For video: search near the last frame's result where the scene goes on, and in full where it changed.
   /// The result still comes from each frame's own images, but may differ a little from that of the frame
   /// alone.

@@ -271,6 +271,7 @@ cv::Mat symmetricDisparity(const LightField& light_field, ThreadPool& pool)
   options.background_fusion = false;
   options.boundary_pixels = false;
   options.refinements = 0;
+  options.registration = false;  // takes longer than the map, and edges are looked at pixels wide
   MultiviewEstimator estimator(options);
   RunContext context(pool);
   return estimator.estimate(light_field, {}, context).disparity;

@@ -330,6 +330,14 @@ private:
         side.at<double>(a) -= doubt * current(a);
       }
     }
+    if (adjustment_.steps_are_known)
+    {
+      const int ratio = unknowns_ - 1;
+      matrix.row(ratio).setTo(0.0);
+      matrix.col(ratio).setTo(0.0);
+      matrix.at<double>(ratio, ratio) = 1.0;
+      side.at<double>(ratio) = 0.0;
+    }
     cv::Mat solution;
     if (!cv::solve(matrix, side, solution, cv::DECOMP_CHOLESKY))
     {
@@ -398,18 +406,17 @@ void adjustJointly(const LightField& light_field, double expected_px, int steps,
   }
 }
 
-std::array<double, 2> compareFits(const LightField& light_field, const std::array<Adjustment, 2>& adjustments,
-                                  ThreadPool& pool)
+std::vector<double> compareFits(const LightField& light_field, std::vector<Adjustment> adjustments,
+                                ThreadPool& pool)
 {
   const std::vector<cv::Mat> images = slopedViews(light_field, pool);
-  std::array<Adjustment, 2> settled = adjustments;
-  std::array<double, 2> fits{};
+  std::vector<double> fits;
   float scale = 0.0F;
-  for (std::size_t i = 0; i < settled.size(); ++i)
+  for (Adjustment& adjustment : adjustments)
   {
-    Adjuster adjuster(light_field, images, 1.0, pool, settled[i]);
-    scale = i == 0 ? adjuster.differenceScale() : scale;
-    fits[i] = adjuster.settle(scale);
+    Adjuster adjuster(light_field, images, 1.0, pool, adjustment);
+    scale = fits.empty() ? adjuster.differenceScale() : scale;
+    fits.push_back(adjuster.settle(scale));
   }
   return fits;
 }

@@ -1,7 +1,6 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_JOINT_ADJUSTMENT_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_PREPROCESS_JOINT_ADJUSTMENT_H
 
-#include <array>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -24,6 +23,7 @@ struct Adjustment
 {
   std::vector<AdjustedPoint> points;
   double step_ratio = 1.0;
+  bool steps_are_known = false;   ///< the ratio stays as it is
   std::vector<ViewMisfit> views;  ///< of all views, the reference's stays 0
 };
 
@@ -36,11 +36,11 @@ struct Adjustment
 void adjustJointly(const LightField& light_field, double expected_px, int steps, ThreadPool& pool,
                    Adjustment& adjustment);
 
-/// How badly two adjustments of the same points fit, each point at the disparity near its own that fits it
-/// best: means over points and views of a robust measure of the differences to the reference, on the scale of
-/// the first one's. Points that took no part in the adjustments tell which of the two is right.
-std::array<double, 2> compareFits(const LightField& light_field, const std::array<Adjustment, 2>& adjustments,
-                                  ThreadPool& pool);
+/// How badly each of some adjustments of the same points fits, each point at the disparity near its own that
+/// fits it best: means over points and views of a robust measure of the differences to the reference, on the
+/// scale of the first one's. Points that took no part in the adjustments tell which of them is right.
+std::vector<double> compareFits(const LightField& light_field, std::vector<Adjustment> adjustments,
+                                ThreadPool& pool);
 
 }  // namespace light_field_depth
 

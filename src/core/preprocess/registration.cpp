@@ -11,7 +11,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/light_field/view_mask.h"
 #include "core/preprocess/joint_adjustment.h"
 #include "core/preprocess/label_support.h"
 #include "core/preprocess/plane_sweep.h"
@@ -33,6 +32,12 @@ constexpr float LABEL_DISPLACEMENT = 0.5F;
 constexpr int MAX_LABELS = 256;
 /// Set by hand: a few for each of 33 views.
 constexpr std::size_t MIN_POINTS = 150;
+/// Pixels at which the image changes along one direction at least a tenth as much (sum of squares) as along
+/// the other; of the half that changes most so many have to. Captures have 0.41 to 0.90, stripes 0.04, thin
+/// bars on an even ground 0.13.
+constexpr int STRUCTURE_WINDOW_PX = 5;
+constexpr float MIN_STRUCTURE = 0.1F;
+constexpr double MIN_STRUCTURED = 0.2;
 /// To find out whether anything is off, and to measure it.
 constexpr std::size_t FEW_POINTS = 1000;
 constexpr std::size_t MANY_POINTS = 6000;
@@ -40,9 +45,9 @@ constexpr std::size_t MANY_POINTS = 6000;
 constexpr double SUSPICION = 0.9;
 /// To find out whether what was measured is true of other points, too.
 constexpr std::size_t TESTED_POINTS = 375;
-/// What the views differ by there has to fall below this part: models of cheap cameras 0.50 and 0.60, a
-/// gantry 0.14, an array 0.94, steps of columns that are 5 % off 0.89, clean and noisy renders 1.00, a
-/// plenoptic camera for which the adjustment fails 1.2.
+/// What the views differ by there has to fall below this part for a richer explanation to be taken: models of
+/// cheap cameras 0.50 and 0.60, a gantry 0.14, an array 0.94, steps of columns that are 5 % off 0.89, clean
+/// and noisy renders 1.00, a plenoptic camera for which the adjustment fails 1.2.
 constexpr double MAX_FIT_RATIO = 0.97;
 /// Of Gauss and Newton, with few and with many points. Set by hand: the disparities are nearly right at the
 /// start, and each step takes as long as the one before.
@@ -75,6 +80,26 @@ LightField reducedViews(const LightField& light_field, int halvings, ThreadPool&
                      }
                    });
   return small;
+}
+
+/// Whether the image changes in all directions. Stripes do not tell disparities of the rows from shifts of
+/// the views, nor those of the columns, and match a period too far.
+bool isStructured(const cv::Mat& grey)
+{
+  constexpr int slope_aperture_px = 3;
+  cv::Mat eigenvalues;
+  cv::cornerEigenValsAndVecs(grey, eigenvalues, STRUCTURE_WINDOW_PX, slope_aperture_px, cv::BORDER_REPLICATE);
+  std::vector<cv::Point2f> changes;  // along and across
+  changes.reserve(grey.total());
+  std::for_each(eigenvalues.begin<cv::Vec6f>(), eigenvalues.end<cv::Vec6f>(),
+                [&](const cv::Vec6f& of_pixel) { changes.emplace_back(of_pixel[0], of_pixel[1]); });
+  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
+  std::nth_element(changes.begin(), middle, changes.end(),
+                   [](const cv::Point2f& left, const cv::Point2f& right) { return left.x > right.x; });
+  const auto structured = std::count_if(changes.begin(), middle,
+                                        [](const cv::Point2f& change)
+                                        { return change.y > 0.0F && change.y >= MIN_STRUCTURE * change.x; });
+  return static_cast<double>(structured) >= MIN_STRUCTURED * static_cast<double>(middle - changes.begin());
 }
 
 /// Likely matches of a plane sweep over the range.
@@ -165,24 +190,36 @@ Adjustment enlarged(const Adjustment& adjustment, int halvings)
   return result;
 }
 
-/// Whether the misfits hold for points that they were not measured at.
-/// @param others the points, without misfits
-bool explainsOthers(const LightField& grey, const Adjustment& others, const Adjustment& measured,
-                    ThreadPool& pool)
+/// Which of the adjustments holds for points that it was not measured at; a later one has to be clearly
+/// better than those before it.
+/// @param points others than those of the adjustments
+std::size_t clearlyBest(const LightField& grey, const std::vector<AdjustedPoint>& points,
+                        std::vector<Adjustment> adjustments, ThreadPool& pool)
 {
-  Adjustment explained = measured;
-  explained.points = others.points;
-  const std::array<double, 2> fits = compareFits(grey, {others, explained}, pool);
-  return fits[1] < MAX_FIT_RATIO * fits[0];
+  for (Adjustment& adjustment : adjustments)
+  {
+    adjustment.points = points;
+  }
+  const std::vector<double> fits = compareFits(grey, std::move(adjustments), pool);
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < fits.size(); ++i)
+  {
+    best = fits[i] < MAX_FIT_RATIO * fits[best] ? i : best;
+  }
+  return best;
 }
 
-/// The misfits as a line between rows and columns and what that leaves, in the light field's pixels.
-Registration separated(const LightField& light_field, const Adjustment& adjustment, double pixel_size)
+/// The misfits as a line between rows and columns and what that leaves, in the light field's pixels. All
+/// disparities can be shifted if the views are shifted with them; of all such misfits those are taken that
+/// move the views least, what the ratio of the steps moves them by at the middle of the range included.
+/// @param range as `light_field` has it
+Registration separated(const LightField& light_field, const DisparityRange& range,
+                       const Adjustment& adjustment, double pixel_size)
 {
-  constexpr double on_axis = 0.05;
   Registration result;
   result.step_ratio = adjustment.step_ratio;
   result.views = adjustment.views;
+  const double middle = 0.5 * (range.min + range.max);
   struct Sum
   {
     double product = 0.0;
@@ -194,32 +231,31 @@ Registration separated(const LightField& light_field, const Adjustment& adjustme
       square += steps.dot(steps);
     }
   };
-  // A shift of d moves every view along its steps: the row's views say how much of it is in the misfits.
-  Sum row;
   Sum all;
   for (std::size_t i = 0; i < light_field.views.size(); ++i)
   {
     const cv::Point2d steps = light_field.views[i].steps;
-    const cv::Point2d shift = result.views[i].shift_px;
-    all.add(shift, steps);
-    if (std::abs(steps.y) <= on_axis * std::abs(steps.x))
-    {
-      row.add(shift, steps);
-    }
+    const cv::Point2d by_ratio(0.0, (1.0 - result.step_ratio) * middle * steps.y);
+    all.add(result.views[i].shift_px + by_ratio, steps);
   }
-  const double common = row.square > 0.0 ? row.mean() : all.mean();
+  Sum row;
   Sum column;
   for (std::size_t i = 0; i < light_field.views.size(); ++i)
   {
     const cv::Point2d steps = light_field.views[i].steps;
-    result.views[i].shift_px -= common * steps;
-    column.add({0.0, result.views[i].shift_px.y}, {0.0, steps.y});
+    cv::Point2d& shift = result.views[i].shift_px;
+    shift -= all.mean() * cv::Point2d(steps.x, result.step_ratio * steps.y);
+    row.add({shift.x, 0.0}, {steps.x, 0.0});
+    column.add({0.0, shift.y}, {0.0, steps.y});
   }
-  // A view at row r is shifted by -b * r where d_column = a d + b.
-  result.step_offset_px = -column.mean();
+  // A view at column c is shifted by -r c and one at row c by -(a r + b) c, where d_row = d + r and
+  // d_column = a d_row + b.
+  result.row_offset_px = -row.mean();
+  result.step_offset_px = -column.mean() - result.step_ratio * result.row_offset_px;
   for (std::size_t i = 0; i < light_field.views.size(); ++i)
   {
-    result.views[i].shift_px.y += result.step_offset_px * light_field.views[i].steps.y;
+    const cv::Point2d steps = light_field.views[i].steps;
+    result.views[i].shift_px -= cv::Point2d(row.mean() * steps.x, column.mean() * steps.y);
     result.views[i].shift_px *= pixel_size;
   }
   return result;
@@ -262,6 +298,7 @@ Registration significant(Registration registration, const Size& size, const Regi
   {
     registration.step_ratio = 1.0;
     registration.step_offset_px = 0.0;
+    registration.row_offset_px = 0.0;
   }
   if (!bent)
   {
@@ -280,35 +317,6 @@ Registration significant(Registration registration, const Size& size, const Regi
   return registration;
 }
 
-/// Where the result at p is seen in the image.
-cv::Matx23d placeSeen(const cv::Size& size, const ViewMisfit& misfit)
-{
-  const double middle_x = 0.5 * (size.width - 1);
-  const double middle_y = 0.5 * (size.height - 1);
-  const double a = 1.0 + misfit.zoom;
-  const double r = misfit.roll;
-  return {a, -r, misfit.shift_px.x + middle_x - a * middle_x + r * middle_y,  //
-          r, a,  misfit.shift_px.y + middle_y - a * middle_y - r * middle_x};
-}
-
-cv::Mat resampled(const cv::Mat& image, const ViewMisfit& misfit)
-{
-  cv::Mat result;
-  cv::warpAffine(image, result, placeSeen(image.size(), misfit), image.size(),
-                 cv::INTER_CUBIC | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-  return result;
-}
-
-/// Known is what only known pixels were interpolated of.
-cv::Mat resampledMask(const cv::Mat& mask, const ViewMisfit& misfit)
-{
-  constexpr int tap_radius_px = 2;
-  cv::Mat masked;
-  cv::warpAffine(maskedWithin(mask, tap_radius_px), masked, placeSeen(mask.size(), misfit), mask.size(),
-                 cv::INTER_NEAREST | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-  return masked == 0;
-}
-
 }  // namespace
 
 Registration estimateRegistration(const LightField& light_field, const DisparityRange& range,
@@ -321,6 +329,10 @@ Registration estimateRegistration(const LightField& light_field, const Disparity
   }
   const int halvings = halvingsFor(full, SMALL_SIDE_PX);
   const LightField small = reducedViews(light_field, halvings, pool);
+  if (!isStructured(small.reference().image))
+  {
+    return {};
+  }
   Adjustment adjustment;
   adjustment.views.resize(light_field.views.size());
   std::vector<AdjustedPoint> points = matchedPoints(small, range, pool);
@@ -334,80 +346,49 @@ Registration estimateRegistration(const LightField& light_field, const Disparity
   others.views.resize(light_field.views.size());
   others.points = thinned(tested, TESTED_POINTS);
   const double scale = std::ldexp(1.0, halvings) * options.pixel_size;
-  adjustJointly(small, options.expected_px / scale, FIRST_STEPS, pool, adjustment);
+  // The start of both at full size: views that stand off their places, and steps of another ratio besides.
+  std::array<Adjustment, 2> starts = {adjustment, adjustment};
+  starts[0].steps_are_known = true;
+  adjustJointly(small, options.expected_px / scale, FIRST_STEPS, pool, starts[0]);
+  starts[1] = starts[0];
+  starts[1].steps_are_known = false;
+  adjustJointly(small, options.expected_px / scale, FIRST_STEPS, pool, starts[1]);
   const cv::Size size(static_cast<int>(full.width * options.pixel_size),
                       static_cast<int>(full.height * options.pixel_size));
-  const Size first = sizeOf(separated(small, adjustment, scale), size, range);
+  const Size first = sizeOf(separated(small, range, starts[1], scale), size, range);
   if (first.shift_px <= SUSPICION * options.min_shift_px &&
       first.bend_px <= SUSPICION * options.min_bend_px && first.line_px <= SUSPICION * options.min_line_px)
   {
     return {};
   }
-  adjustment.points = thinned(points, MANY_POINTS / 4);
-  adjustment = enlarged(adjustment, halvings);
+  // From the simplest explanation to the richest: nothing is off; views stand off their places; rows and
+  // columns differ by an offset besides; and by a ratio of steps.
   const LightField grey = greyViews(light_field);
-  adjustJointly(grey, options.expected_px / options.pixel_size, LAST_STEPS, pool, adjustment);
-  const Registration found = separated(light_field, adjustment, options.pixel_size);
-  const Size last = sizeOf(found, size, range);
-  return explainsOthers(grey, enlarged(others, halvings), adjustment, pool)
-             ? significant(found, last, options)
-             : Registration();
-}
-
-LightField correctRegistration(const LightField& light_field, const Registration& registration,
-                               ThreadPool& pool)
-{
-  LightField result = light_field;
-  for (View& view : result.views)
+  std::vector<Adjustment> candidates(1, enlarged(others, halvings));
+  const std::vector<AdjustedPoint> tested_points = candidates.front().points;
+  for (Adjustment& start : starts)
   {
-    view.offset_px.y -= registration.step_offset_px * view.steps.y;
-    view.steps.y *= registration.step_ratio;
-  }
-  if (registration.views.empty())
-  {
-    return result;
-  }
-  pool.parallelFor(0, static_cast<int>(result.views.size()), 1,
-                   [&](int first, int last)
-                   {
-                     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-                     {
-                       View& view = result.views[i];
-                       const ViewMisfit& misfit = registration.views[i];
-                       if (!registration.resample)
-                       {
-                         view.offset_px += misfit.shift_px;
-                       }
-                       else if (i != result.reference_index)
-                       {
-                         view.image = resampled(view.image, misfit);
-                         view.mask = view.mask.empty() ? view.mask : resampledMask(view.mask, misfit);
-                       }
-                     }
-                   });
-  return result;
-}
-
-LightField registeredViews(const LightField& light_field, const Registration& registration, ThreadPool& pool)
-{
-  LightField corrected = correctRegistration(light_field, registration, pool);
-  if (registration.views.empty())
-  {
-    return corrected;
-  }
-  LightField known = corrected;
-  known.views.clear();
-  for (std::size_t i = 0; i < corrected.views.size(); ++i)
-  {
-    const ViewMisfit& misfit = registration.views[i];
-    const bool is_reference = i == corrected.reference_index;
-    if (is_reference || misfit.shift_px != cv::Point2d() || misfit.roll != 0.0 || misfit.zoom != 0.0)
+    if (!start.steps_are_known && first.line_px <= SUSPICION * options.min_line_px)
     {
-      known.reference_index = is_reference ? known.views.size() : known.reference_index;
-      known.views.push_back(corrected.views[i]);
+      break;
     }
+    start.points = thinned(points, MANY_POINTS / 4);
+    Adjustment candidate = enlarged(start, halvings);
+    adjustJointly(grey, options.expected_px / options.pixel_size, LAST_STEPS, pool, candidate);
+    if (candidate.steps_are_known)
+    {
+      candidates.push_back(candidate);
+      candidates.back().views = separated(light_field, range, candidate, 1.0).views;
+    }
+    candidates.push_back(std::move(candidate));
   }
-  return known;
+  const std::size_t best = clearlyBest(grey, tested_points, candidates, pool);
+  if (best == 0)
+  {
+    return {};
+  }
+  const Registration found = separated(light_field, range, candidates[best], options.pixel_size);
+  return significant(found, sizeOf(found, size, range), options);
 }
 
 std::vector<std::string> describe(const Registration& registration, const LightField& light_field)

@@ -32,25 +32,30 @@ struct Case
 {
   std::string scene;
   Bounds bounds;
+  int arrays = 1;  ///< means over so many
 };
 
+/// Where eight views are shifted at random, their common part moves the disparity of everything by up to 0.1
+/// px, and no image tells: one array alone would be a matter of luck.
+constexpr int SEVERAL = 3;
+
 const std::vector<Case> CASES = {
-    {"demo", {9.7, 31.0, 69.0}},
-    {"thin_structures", {42.8, 36.6, 70.0}},
-    {"fine_stripes", {9.9, 20.4, 50.0}},
-    {"repeated_texture", {30.0, 73.0, 92.0}},
-    {"slanted_planes", {0.11, 3.3, 36.3}},
-    {"gradients", {74.0, 62.1, 73.0}},
-    {"soft_edges", {2.5, 15.1, 49.0}},
-    {"sparse_array", {49.0, 72.0, 94.0}},
-    {"noise", {5.7, 15.5, 47.9}},
+    {"demo", {9.3, 19.2, 42.9}},
+    {"thin_structures", {42.8, 34.5, 69.3}},
+    {"fine_stripes", {8.9, 12.3, 49.6}},
+    {"repeated_texture", {29.2, 39.3, 54.9}, SEVERAL},
+    {"slanted_planes", {0.088, 1.5, 31.8}},
+    {"gradients", {69.4, 62.1, 71.1}},
+    {"soft_edges", {2.5, 13.4, 49.0}},
+    {"sparse_array", {43.2, 42.0, 76.2}, SEVERAL},
+    {"noise", {4.6, 15.4, 44.9}},
     {"dark_and_noisy", {81.2, 100.0, 100.0}},
-    {"vignetting", {5.4, 15.7, 50.8}},
-    {"exposure_differences", {5.7, 14.2, 46.3}},
-    {"view_dependent_brightness", {5.7, 13.8, 47.8}},
-    {"strong_occlusion", {39.9, 39.2, 67.0}},
-    {"clutter", {14.2, 41.0, 75.3}},
-    {"single_row", {10.0, 56.9, 89.0}},
+    {"vignetting", {4.1, 13.9, 46.1}},
+    {"exposure_differences", {4.4, 13.9, 44.1}},
+    {"view_dependent_brightness", {5.2, 13.8, 44.3}},
+    {"strong_occlusion", {35.4, 39.2, 67.0}},
+    {"clutter", {13.9, 38.5, 71.6}},
+    {"single_row", {9.7, 52.5, 88.9}},
 };
 
 std::ostream& operator<<(std::ostream& stream, const Case& test)
@@ -79,12 +84,20 @@ TEST_P(CameraModelAccuracy, IsWithinItsBounds)
 {
   const Case& test = GetParam();
   const testing::SyntheticLightField scene = sceneOf(test.scene);
-  const LightField taken = benchmark::photograph(scene.light_field);
-  const Evaluation evaluation = evaluate(Pipeline(2).run(taken, {}, {}).estimate.disparity, scene.truth);
-  std::cout << toText(evaluation) << std::endl;
-  EXPECT_LE(evaluation.mse_100, test.bounds.mse_100);
-  EXPECT_LE(evaluation.badpix_007, test.bounds.badpix_007);
-  EXPECT_LE(evaluation.badpix_003, test.bounds.badpix_003);
+  Bounds mean = {};
+  benchmark::CameraModel model;
+  for (int array = 0; array < test.arrays; ++array, ++model.seed)
+  {
+    const LightField taken = benchmark::photograph(scene.light_field, model);
+    const Evaluation evaluation = evaluate(Pipeline(2).run(taken, {}, {}).estimate.disparity, scene.truth);
+    std::cout << toText(evaluation) << std::endl;
+    mean.mse_100 += evaluation.mse_100 / test.arrays;
+    mean.badpix_007 += evaluation.badpix_007 / test.arrays;
+    mean.badpix_003 += evaluation.badpix_003 / test.arrays;
+  }
+  EXPECT_LE(mean.mse_100, test.bounds.mse_100);
+  EXPECT_LE(mean.badpix_007, test.bounds.badpix_007);
+  EXPECT_LE(mean.badpix_003, test.bounds.badpix_003);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CameraModelAccuracy, ::testing::ValuesIn(CASES),

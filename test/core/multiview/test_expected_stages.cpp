@@ -55,7 +55,7 @@ TEST(ExpectedStages, HalfTheResolutionIsAQuarterOfTheWork)
   const Stages once = expectedStages({}, false, false);
   const Stages twice = expectedStages({}, true, false);
   const Stages pair = expectedStages({}, false, true);
-  const double measuring = 8.7;
+  const double measuring = 11.7;
   EXPECT_NEAR(total(twice) - total(once), 0.25 * (total(once) - measuring) + 1.0, 1e-9);
   EXPECT_EQ(countOf(twice, "upsample"), 1);
   EXPECT_EQ(countOf(twice, "cost"), 2);

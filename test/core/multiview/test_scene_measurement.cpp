@@ -62,7 +62,7 @@ TEST(SceneMeasurement, FindsRangeAndNoiseAndSharesEvenViews)
   settings.noise_sigma = 3.0;
   const LightField field = rendered(settings);
   const Measured found = measured(field);
-  EXPECT_EQ(found.stages, (std::vector<std::string>{"exposure", "range", "noise"}));
+  EXPECT_EQ(found.stages, (std::vector<std::string>{"exposure", "range", "registration", "noise"}));
   EXPECT_NEAR(found.measures.range.min, -1.2F, 0.4F);
   EXPECT_NEAR(found.measures.range.max, 2.0F, 0.4F);
   EXPECT_NEAR(found.measures.noise_sigma, 3.0F, 0.5F);
@@ -98,7 +98,7 @@ TEST(SceneMeasurement, ARangeThatIsGivenIsTaken)
   EXPECT_EQ(found.measures.range.max, 5.0F);
 }
 
-TEST(SceneMeasurement, RegistrationIsMeasuredWhereItIsAskedFor)
+TEST(SceneMeasurement, RegistrationIsMeasuredUnlessItIsSwitchedOff)
 {
   LightField shifted = rendered(crossSettings());
   for (View& view : shifted.views)
@@ -106,7 +106,6 @@ TEST(SceneMeasurement, RegistrationIsMeasuredWhereItIsAskedFor)
     view.steps.y /= 1.08;
   }
   MultiviewOptions options;
-  options.registration = true;
   const Measured found = measured(shifted, options);
   EXPECT_EQ(found.stages, (std::vector<std::string>{"exposure", "range", "registration", "noise"}));
   EXPECT_TRUE(found.measures.registration.differs);

@@ -8,6 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "camera_model.h"
 #include "light_field_depth/core/pipeline.h"
 #include "light_field_depth/evaluation/evaluation.h"
 #include "support/named_scenes.h"
@@ -50,8 +51,8 @@ LightField withWrongSteps(LightField light_field, double ratio, double offset_px
   return light_field;
 }
 
-/// What estimateRegistration() cannot know of the shifts, see there: their mean along the row's steps.
-std::vector<cv::Point2d> knowable(const LightField& light_field, std::vector<cv::Point2d> shifts)
+/// Of the shifts, without their line between rows and columns, which estimateRegistration() tells apart.
+std::vector<cv::Point2d> withoutLine(const LightField& light_field, std::vector<cv::Point2d> shifts)
 {
   double row = 0.0;
   double column = 0.0;
@@ -148,12 +149,22 @@ TEST(Registration, FindsUnequalStepsOfRowsAndColumns)
     EXPECT_TRUE(found.differs);
     EXPECT_NEAR(found.step_ratio, ratio, 0.01);
     EXPECT_NEAR(found.step_offset_px, offset_px, 0.015);
-    for (const View& view : correctRegistration(wrong, found, pool).views)
+    // Rows and columns both move, so that all views together move least, at the middle of the range.
+    const LightField corrected = correctRegistration(wrong, found, pool);
+    double along = 0.0;
+    double squares = 0.0;
+    for (const View& view : corrected.views)
     {
       const double true_y = view.grid.row - 3.0;
       EXPECT_NEAR(view.steps.y, true_y, 0.03);
-      EXPECT_NEAR(view.offset_px.y, 0.0, 0.06);
+      const double middle = 0.5 * (RANGE.min + RANGE.max);
+      const View& believed = wrong.views[static_cast<std::size_t>(&view - corrected.views.data())];
+      const cv::Point2d moved =
+          (view.offset_px - middle * view.steps) - (believed.offset_px - middle * believed.steps);
+      along += moved.dot(believed.steps);
+      squares += moved.dot(moved);
     }
+    EXPECT_NEAR(along, 0.0, 0.05 * std::sqrt(squares) + 0.03);
   }
 }
 
@@ -174,7 +185,7 @@ TEST(Registration, FindsTheShiftOfEachView)
   ASSERT_TRUE(found.differs);
   ASSERT_EQ(found.views.size(), wrong.views.size());
   EXPECT_FALSE(found.resample);
-  const std::vector<cv::Point2d> expected = knowable(wrong, shifts);
+  const std::vector<cv::Point2d> expected = withoutLine(wrong, shifts);
   double squares = 0.0;
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
@@ -182,6 +193,46 @@ TEST(Registration, FindsTheShiftOfEachView)
     squares += 0.5 * error.dot(error);
   }
   EXPECT_LT(std::sqrt(squares / static_cast<double>(expected.size() - 1)), 0.04);
+}
+
+/// Two views stand in the row of a 3 x 3 array: their shifts alone must not decide the disparity of all.
+TEST(Registration, ShiftsOfFewViewsDoNotMoveAllDisparities)
+{
+  testing::SceneSettings settings;
+  settings.size = cv::Size(256, 192);
+  settings.positions = testing::gridPositions(3, 3);
+  LightField wrong = testing::renderScene(testing::standardScene(settings.size), settings).light_field;
+  const LightField right = wrong;
+  for (View& view : wrong.views)
+  {
+    // Along the steps in the row, where it looks like a disparity, and against them in the others.
+    const double sign = view.steps.y == 0.0 ? 1.0 : -0.5;
+    view.offset_px += 0.3 * sign * cv::Point2d(view.steps.x, 0.0);
+  }
+  ThreadPool pool(2);
+  const Registration found = estimateRegistration(wrong, {RANGE.min - 0.3F, RANGE.max + 0.3F}, pool);
+  ASSERT_TRUE(found.differs);
+  const LightField corrected = correctRegistration(wrong, found, pool);
+  for (std::size_t i = 0; i < corrected.views.size(); ++i)
+  {
+    EXPECT_LT(cv::norm(corrected.views[i].offset_px - right.views[i].offset_px), 0.06) << i;
+  }
+}
+
+/// Along stripes and bars views may stand anywhere, and stripes match a period too far.
+TEST(Registration, LeavesStripesAlone)
+{
+  ThreadPool pool(2);
+  for (const testing::NamedScene& named : {testing::fineStripes(), testing::thinStructures()})
+  {
+    const testing::SyntheticLightField rendered = named.render();
+    double min = 0.0;
+    double max = 0.0;
+    cv::minMaxIdx(rendered.truth, &min, &max);
+    const LightField seen = benchmark::photograph(rendered.light_field);
+    EXPECT_FALSE(estimateRegistration(seen, {static_cast<float>(min), static_cast<float>(max)}, pool).differs)
+        << named.name;
+  }
 }
 
 TEST(Registration, FindsAndTakesBackRollAndZoom)
