@@ -10,7 +10,7 @@ endif()
 
 option(LIGHT_FIELD_DEPTH_FETCH "Fetch Highway, CLI11 and nlohmann-json even where the system has them" OFF)
 
-find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs video OPTIONAL_COMPONENTS calib3d)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs video OPTIONAL_COMPONENTS calib3d ximgproc optflow)
 find_package(Eigen3 REQUIRED)
 find_package(Boost REQUIRED)
 find_package(yaml-cpp REQUIRED)

@@ -35,6 +35,9 @@ START = PAPER + ['--set', 'variational=false']
 INITIALISATIONS = {
     'CPM': START + ['--set', 'initializer=cpm', '--set', 'feature_flow=false'],
     'DIS': START + ['--set', 'initializer=dis', '--set', 'feature_flow=false'],
+    'CPM + EpicFlow': START + ['--set', 'initializer=epicflow', '--set', 'feature_flow=false'],
+    'DeepFlow': START + ['--set', 'initializer=deepflow', '--set', 'feature_flow=false'],
+    'PCAFlow': START + ['--set', 'initializer=pcaflow', '--set', 'feature_flow=false'],
     'CPM + feature flow': START + ['--set', 'initializer=cpm'],
     'DIS + feature flow': START + ['--set', 'initializer=dis'],
 }

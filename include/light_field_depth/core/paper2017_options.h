@@ -122,11 +122,14 @@ std::vector<std::string> validate(const VariationalOptions& options);
 /// What finds the first matches between neighbouring views.
 enum class FlowInitializer
 {
-  Cpm,  ///< coarse-to-fine PatchMatch, the paper's choice
-  Dis   ///< OpenCV's dense inverse search, for comparison
+  Cpm,       ///< coarse-to-fine PatchMatch, the paper's choice
+  Dis,       ///< OpenCV's dense inverse search, for comparison, like all that follow
+  EpicFlow,  ///< Cpm, spread by OpenCV's edge-aware interpolation; needs OpenCV's module ximgproc
+  DeepFlow,  ///< OpenCV's; needs its module optflow
+  PcaFlow    ///< likewise
 };
 
-/// "cpm", "dis".
+/// "cpm", "dis", "epicflow", "deepflow", "pcaflow".
 std::string toString(FlowInitializer initializer);
 /// The inverse of toString(). @throw InputError that lists the names.
 FlowInitializer flowInitializerFromString(const std::string& name);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/light_field/spread_views.h"
+#include "core/paper2017/dense_flow.h"
 #include "core/paper2017/disparity_fusion.h"
 #include "core/paper2017/volume_matches.h"
 #include "light_field_depth/core/enum_names.h"
@@ -28,9 +29,12 @@ constexpr EnumNames<Paper2017Parameters, 2> PARAMETERS_NAMES = {{
     {Paper2017Parameters::Tuned, "tuned"},
     {Paper2017Parameters::Published, "published"},
 }};
-constexpr EnumNames<FlowInitializer, 2> INITIALIZER_NAMES = {{
+constexpr EnumNames<FlowInitializer, 5> INITIALIZER_NAMES = {{
     {FlowInitializer::Cpm, "cpm"},
     {FlowInitializer::Dis, "dis"},
+    {FlowInitializer::EpicFlow, "epicflow"},
+    {FlowInitializer::DeepFlow, "deepflow"},
+    {FlowInitializer::PcaFlow, "pcaflow"},
 }};
 constexpr EnumNames<MatchDirections, 2> DIRECTIONS_NAMES = {{
     {MatchDirections::Forward, "forward"},
@@ -313,6 +317,10 @@ std::vector<std::string> validate(const Paper2017Options& options)
        {validate(options.patch_match), validate(options.feature_flow), validate(options.variational)})
   {
     std::move(more.begin(), more.end(), std::back_inserter(problems));
+  }
+  if (const std::optional<std::string> missing = whatIsMissingFor(options.initializer))
+  {
+    problems.push_back(*missing);
   }
   return problems;
 }

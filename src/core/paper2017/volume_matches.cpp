@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
-#include <opencv2/video/tracking.hpp>
+#include "core/paper2017/dense_flow.h"
 
 namespace light_field_depth
 {
@@ -84,32 +83,27 @@ std::vector<SeedMatches> matchByPatchMatch(const LightField& light_field,
   return matches;
 }
 
-/// A match for every pixel: the flow of OpenCV's DIS, projected on the epipolar line.
-SeedMatches matchByDis(const View& from, const View& to, const std::optional<DisparityRange>& range)
+/// The sparse matches of each pair spread to all pixels.
+std::vector<SeedMatches> spreadAll(const LightField& light_field, const std::vector<MatchTask>& tasks,
+                                   const std::vector<SeedMatches>& sparse,
+                                   const std::optional<DisparityRange>& range,
+                                   const PatchMatchOptions& options, RunContext& context)
 {
-  const cv::Size size = from.image.size();
-  const ViewPair pair = pairOf(from, to);
-  cv::Mat flow;
-  cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)
-      ->calc(toGrey(from.image), toGrey(to.image), flow);
-  SeedMatches matches;
-  matches.columns_px.resize(static_cast<std::size_t>(size.width));
-  matches.rows_px.resize(static_cast<std::size_t>(size.height));
-  std::iota(matches.columns_px.begin(), matches.columns_px.end(), 0);
-  std::iota(matches.rows_px.begin(), matches.rows_px.end(), 0);
-  matches.cost = cv::Mat::zeros(size, CV_32FC1);
-  matches.centre_share = cv::Mat::ones(size, CV_32FC1);
-  matches.disparity.create(size, CV_32FC1);
-  for (int y = 0; y < size.height; ++y)
-  {
-    for (int x = 0; x < size.width; ++x)
-    {
-      const auto& moved = flow.at<cv::Vec2f>(y, x);
-      const cv::Point2d explained = cv::Point2d(moved[0], moved[1]) - pair.offset_px;
-      const auto disparity = static_cast<float>(-explained.dot(pair.steps) / pair.steps.dot(pair.steps));
-      matches.disparity.at<float>(y, x) = range ? std::clamp(disparity, range->min, range->max) : disparity;
-    }
-  }
+  const StageTimer timer(context, "matching");
+  std::vector<SeedMatches> matches(tasks.size());
+  context.pool.parallelFor(
+      0, static_cast<int>(tasks.size()), 1,
+      [&](int task, int)
+      {
+        const auto i = static_cast<std::size_t>(task);
+        const View& from = light_field.views[tasks[i].from];
+        const View& to = light_field.views[tasks[i].to];
+        const std::size_t opposite = i ^ 1U;
+        matches[i] = spreadByEpicFlow(
+            from, to,
+            consistentMatches(sparse[i], sparse[opposite], pairOf(from, to), light_field.size(), options),
+            options.grid_spacing_px, range);
+      });
   return matches;
 }
 
@@ -122,6 +116,12 @@ std::vector<SeedMatches> matchAll(const LightField& light_field, const std::vect
   {
     return matchByPatchMatch(light_field, volumes, tasks, range, options.patch_match, context);
   }
+  if (options.initializer == FlowInitializer::EpicFlow)
+  {
+    return spreadAll(light_field, tasks,
+                     matchByPatchMatch(light_field, volumes, tasks, range, options.patch_match, context),
+                     range, options.patch_match, context);
+  }
   const StageTimer timer(context, "matching");
   std::vector<SeedMatches> matches(tasks.size());
   context.pool.parallelFor(0, static_cast<int>(tasks.size()), 1,
@@ -129,7 +129,8 @@ std::vector<SeedMatches> matchAll(const LightField& light_field, const std::vect
                            {
                              const MatchTask task = tasks[static_cast<std::size_t>(i)];
                              matches[static_cast<std::size_t>(i)] =
-                                 matchByDis(light_field.views[task.from], light_field.views[task.to], range);
+                                 matchByFlow(light_field.views[task.from], light_field.views[task.to],
+                                             options.initializer, range);
                            });
   return matches;
 }

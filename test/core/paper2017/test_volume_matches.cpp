@@ -56,6 +56,38 @@ TEST(VolumeMatches, EveryNeighbourIsMatchedBothWays)
   EXPECT_EQ(context.stage_times[1].stage, "matching");
 }
 
+/// Mean disparity of the matches of a view with the next.
+double meanOfInitializer(FlowInitializer initializer)
+{
+  ThreadPool pool(2);
+  RunContext context(pool);
+  Paper2017Options options;
+  options.initializer = initializer;
+  const auto matches = matchVolumes(cross(), extractVolumes(cross(), ViewSelection::Row),
+                                    DisparityRange{0.0F, 3.0F}, options, context);
+  EXPECT_GT(cv::countNonZero(matches.at(0).forward.at(1).confidence), 96 * 72 * 6 / 10);
+  return meanDisparity(matches.at(0).forward.at(1));
+}
+
+TEST(VolumeMatches, OtherFlowsMatchEveryPixelWhereOpenCvHasThem)
+{
+  for (const auto initializer :
+       {FlowInitializer::EpicFlow, FlowInitializer::DeepFlow, FlowInitializer::PcaFlow})
+  {
+    Paper2017Options options;
+    options.initializer = initializer;
+    const std::vector<std::string> problems = validate(options);
+    if (problems.empty())
+    {
+      EXPECT_NEAR(meanOfInitializer(initializer), DISPARITY_PX, 0.1) << toString(initializer);
+    }
+    else
+    {
+      EXPECT_NE(problems.front().find("choose cpm or dis"), std::string::npos) << problems.front();
+    }
+  }
+}
+
 TEST(VolumeMatches, DisMatchesEveryPixel)
 {
   ThreadPool pool(2);
