@@ -19,6 +19,7 @@ struct ViewDisparity
   std::size_t view_index = 0;  ///< into LightField::views of the light field that was given to the estimator
   cv::Mat disparity;           ///< CV_32FC1, pixels per grid step; NaN where unknown
   cv::Mat confidence;          ///< CV_32FC1, 0..1; 0 where the disparity is filled
+  cv::Mat held{};              ///< CV_32FC1 or empty: instead, where a plane holds it; see DisparityEstimate
 };
 
 /// What an estimator finds out about one light field.
@@ -35,8 +36,12 @@ struct DisparityEstimate
   /// right, never seen. Empty if the method does not tell.
   cv::Mat filled;
   /// The same with those filled pixels that a plane holds, which goes on around them: they count as known in
-  /// depth and in the organised cloud, but no view measured them. The dense cloud takes none of them.
+  /// depth and in the organised cloud, but no view measured them. The dense cloud takes none but those held.
   cv::Mat unmeasured;
+  /// CV_8UC1, 255 where the blank part of a flat surface was moved to the plane of what is measured of the
+  /// same colour around it: unmeasured, not filled, with a low confidence. The dense cloud takes these pixels
+  /// from the view of their own map alone. Empty if the method does not tell.
+  cv::Mat held;
   /// The range that was searched: the given one, or the one that was found.
   DisparityRange range;
   /// How many views took part.

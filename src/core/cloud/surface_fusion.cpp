@@ -269,6 +269,11 @@ public:
                     maps[i].slope_y.ptr<float>(), steps,
                     1.0F / (1.0F + WEIGHT_FALL * std::hypot(steps.x, steps.y))};
       nearest_ = std::max(nearest_, values_[i].nearness);
+      if (steps == cv::Point2f() && !maps[i].held.empty())
+      {
+        own_ = &maps[i];
+        own_index_ = static_cast<std::uint32_t>(i);
+      }
     }
   }
 
@@ -284,6 +289,10 @@ public:
     {
       all_ == 1 ? takeOnly(rows[0], x) : fusePixel(rows, x, y);
     }
+    if (own_ != nullptr)
+    {
+      takeHeld(y);
+    }
   }
 
 private:
@@ -295,6 +304,28 @@ private:
     slope_y_ = fused_.slope_y.ptr<float>(y);
     votes_ = fused_.votes.ptr<std::uint8_t>(y);
     by_first_ = fused_.by_first.ptr<std::uint8_t>(y);
+  }
+
+  /// What planes hold is no new information for other views: they would only repeat it.
+  void takeHeld(int y)
+  {
+    const auto* const held = own_->held.ptr<float>(y);
+    const auto* const disparity = own_->disparity.ptr<float>(y);
+    for (int x = 0; x < fused_.disparity.cols; ++x)
+    {
+      if (held[x] >= min_confidence_ && held[x] > 0.0F && std::isnan(disparity_[x]))
+      {
+        Cluster cluster;
+        cluster.disparity = disparity[x];
+        cluster.members = 1U << own_index_;
+        if (sight_lines_.areBlocked(x, y, cluster))
+        {
+          const std::int32_t source = y * fused_.disparity.cols + x;
+          write(x, disparity[x], held[x], {disparity[x], held[x], 1.0F, source, own_index_}, 1,
+                cluster.members);
+        }
+      }
+    }
   }
 
   void takeOnly(const WarpedRow& row, int x)
@@ -383,7 +414,9 @@ private:
   FusedView& fused_;
   std::size_t all_;
   std::array<MapValues, MAX_FUSED_MAPS> values_{};
-  float nearest_ = 0.0F;  ///< the greatest nearness
+  float nearest_ = 0.0F;             ///< the greatest nearness
+  const SurfaceMap* own_ = nullptr;  ///< of this very view, if planes hold some of it
+  std::uint32_t own_index_ = 0;
   std::array<Candidate, MAX_FUSED_MAPS> candidates_{};
   // Of the row.
   float* disparity_ = nullptr;

@@ -30,7 +30,8 @@ struct FusionScratch
 };
 
 /// Brings all maps to a view, takes the best supported of their surfaces at each pixel, and drops what too
-/// few maps support or what a map sees through.
+/// few maps support or what a map sees through. Where nothing is left and a plane holds what a map of this
+/// very view has, that is taken.
 /// @param maps one to MAX_FUSED_MAPS
 /// @param min_confidence 0..1
 void fuseView(const std::vector<SurfaceMap>& maps, const View& view, const Tolerance& tolerance,

@@ -123,6 +123,7 @@ SurfaceMap makeSurfaceMap(const ViewDisparity& map, const View& view, const Tole
   surface.steps = view.steps;
   surface.offset_px = view.offset_px;
   surface.disparity = map.disparity;
+  surface.held = map.held;
   surface.confidence = map.confidence.empty() ? cv::Mat(map.disparity.size(), CV_32FC1, cv::Scalar(1.0))
                                               : map.confidence.clone();
   // What is no number takes no part, and must not spread through the windows.

@@ -40,6 +40,7 @@ struct SurfaceMap
   cv::Mat confidence;     ///< CV_32FC1; negative where the pixel takes no part: unknown, filled, or at a rim
   cv::Mat slope_x;        ///< CV_32FC1, of the plane through the pixel's surface about it, per pixel
   cv::Mat slope_y;        ///< likewise
+  cv::Mat held;           ///< CV_32FC1 or empty: confidence where a plane holds the pixel; 0 elsewhere
 };
 
 /// CV_8UC1, 255 where a map (CV_32FC1) has no number.

@@ -147,7 +147,12 @@ void invalidateMasked(const LightField& light_field, DisparityEstimate& estimate
   invalidate(light_field.reference().mask, estimate.disparity, estimate.confidence);
   for (ViewDisparity& map : estimate.view_disparities)
   {
-    invalidate(light_field.views[map.view_index].mask, map.disparity, map.confidence);
+    const cv::Mat& mask = light_field.views[map.view_index].mask;
+    invalidate(mask, map.disparity, map.confidence);
+    if (!mask.empty() && !map.held.empty())
+    {
+      map.held.setTo(0.0F, mask == 0);
+    }
   }
 }
 

@@ -50,17 +50,24 @@ void markFilled(DisparityEstimate& estimate, const cv::Mat& where = {})
 {
   estimate.filled.setTo(255, where);
   estimate.unmeasured.setTo(255, where);
+  estimate.held.setTo(0, where);
 }
 
-/// Confidence that is 0 where no view measured the disparity: no such pixel enters the cloud.
-cv::Mat ofMeasured(const DisparityEstimate& estimate)
+/// The map of a view as the cloud takes it: the confidence is 0 where no view measured the disparity, and
+/// that of what a plane holds is apart.
+ViewDisparity ofView(std::size_t view_index, const DisparityEstimate& estimate)
 {
-  cv::Mat seen = estimate.confidence.clone();
+  ViewDisparity map{view_index, estimate.disparity, estimate.confidence.clone(), {}};
+  if (!estimate.held.empty() && cv::countNonZero(estimate.held) > 0)
+  {
+    map.held = cv::Mat::zeros(estimate.confidence.size(), CV_32FC1);
+    estimate.confidence.copyTo(map.held, estimate.held);
+  }
   if (!estimate.unmeasured.empty())
   {
-    seen.setTo(0.0F, estimate.unmeasured);
+    map.confidence.setTo(0.0F, estimate.unmeasured);
   }
-  return seen;
+  return map;
 }
 
 /// Where a light field has the view at a place of the grid.
@@ -158,7 +165,7 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
 void MultiviewEstimator::solveOtherViews(const LightField& light_field, const LightField& chosen,
                                          std::size_t maps, RunContext& context, DisparityEstimate& estimate)
 {
-  estimate.view_disparities = {{light_field.reference_index, estimate.disparity, ofMeasured(estimate)}};
+  estimate.view_disparities = {ofView(light_field.reference_index, estimate)};
   const std::vector<std::size_t> views = spreadViews(chosen, maps);
   if (views.size() < 2)
   {
@@ -181,8 +188,7 @@ void MultiviewEstimator::solveOtherViews(const LightField& light_field, const Li
   {
     const DisparityEstimate other =
         memory_->other_views->estimate(turnedTo(chosen, views[i]), request, apart);
-    estimate.view_disparities.push_back(
-        {indexOf(light_field, chosen.views[views[i]].grid), other.disparity, ofMeasured(other)});
+    estimate.view_disparities.push_back(ofView(indexOf(light_field, chosen.views[views[i]].grid), other));
   }
 }
 
@@ -295,6 +301,7 @@ void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) co
   estimate.confidence = memory_->solver.confidence().clone();
   estimate.filled = memory_->solver.filled();
   estimate.unmeasured = memory_->solver.unmeasured();
+  estimate.held = memory_->solver.held().clone();
   if (estimate.range.min >= estimate.range.max)
   {
     // No disparity had any support: the views are of nothing, of noise or not of one scene, and agree by
@@ -349,7 +356,7 @@ void MultiviewEstimator::upsample(const LightField& light_field, RunContext& con
                       confidence);
   estimate.disparity = disparity;
   estimate.confidence = confidence;
-  for (cv::Mat* const mask : {&estimate.filled, &estimate.unmeasured})
+  for (cv::Mat* const mask : {&estimate.filled, &estimate.unmeasured, &estimate.held})
   {
     if (!mask->empty())
     {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/multiview/maps/blank_planes.h"
 #include "core/multiview/maps/confidence.h"
 #include "core/multiview/maps/filled_regions.h"
 
@@ -71,7 +72,9 @@ void Solver::prepare(const LightField& light_field, const SolverSettings& settin
 
 cv::Mat Solver::filled() const
 {
-  return findFilled(refinement_.share(), disparity_);
+  cv::Mat filled = findFilled(refinement_.share(), disparity_);
+  filled.setTo(0, held_);
+  return filled;
 }
 
 cv::Mat Solver::unmeasured() const
@@ -89,6 +92,7 @@ void Solver::rateConfidence(float noise_sigma, RunContext& context)
   const StageTimer timer(context, "confidence");
   estimateConfidence({disparity_, searched_.last, searched_.first, linearization, noise_sigma}, context.pool,
                      confidence_);
+  held_ = holdBlankPlanes(refinement_.share(), guide(), {}, disparity_, confidence_);
   if (views_.reference_masked.width() > 0)
   {
     forgetMasked();

@@ -55,6 +55,8 @@ public:
   cv::Mat filled() const;
   /// The same whether a plane around holds the disparity or not.
   cv::Mat unmeasured() const;
+  /// CV_8UC1 of the last run, 255 where holdBlankPlanes() moved the disparity.
+  const cv::Mat& held() const { return held_; }
 
 private:
   bool solve(const LightField& light_field, const SolverSettings& settings, const cv::Mat& around,
@@ -76,6 +78,7 @@ private:
   cv::Mat boundary_scratch_;
   cv::Mat disparity_;
   cv::Mat confidence_;
+  cv::Mat held_;
 };
 
 }  // namespace light_field_depth::multiview

@@ -12,6 +12,7 @@
 #include "light_field_depth/core/error.h"
 
 #ifdef LIGHT_FIELD_DEPTH_HAS_XIMGPROC
+#include <opencv2/ximgproc/edge_filter.hpp>
 #include <opencv2/ximgproc/sparse_match_interpolator.hpp>
 #endif
 #ifdef LIGHT_FIELD_DEPTH_HAS_OPTFLOW
@@ -112,6 +113,16 @@ FlowPoints pointsOf(const SparseDisparity& matches, int grid_spacing_px, const V
   }
   return points;
 }
+
+void replaceUnknown(const cv::Vec2f& value, cv::Mat& flow)
+{
+  for (int y = 0; y < flow.rows; ++y)
+  {
+    auto* const row = flow.ptr<cv::Vec2f>(y);
+    std::replace_if(
+        row, row + flow.cols, [](const cv::Vec2f& at) { return !std::isfinite(at[0] + at[1]); }, value);
+  }
+}
 #endif
 
 }  // namespace
@@ -158,7 +169,14 @@ SeedMatches spreadByEpicFlow(const View& from, const View& to, const SparseDispa
     };
     const auto interpolator = cv::ximgproc::createEdgeAwareInterpolator();
     interpolator->setK(std::min(interpolator->getK(), static_cast<int>(points.from.size()) - 1));
-    interpolator->interpolate(inColour(from.image), points.from, inColour(to.image), points.to, flow);
+    interpolator->setUsePostProcessing(false);
+    const cv::Mat guide = inColour(from.image);
+    interpolator->interpolate(guide, points.from, inColour(to.image), points.to, flow);
+    // Far from all points their weights vanish, and what they are divided by; the smoothing would spread it.
+    const cv::Scalar mean = cv::mean(points.to) - cv::mean(points.from);
+    replaceUnknown({static_cast<float>(mean[0]), static_cast<float>(mean[1])}, flow);
+    cv::ximgproc::fastGlobalSmootherFilter(guide, flow, flow, interpolator->getFGSLambda(),
+                                           interpolator->getFGSSigma());
   }
 #else
   static_cast<void>(matches);

@@ -184,6 +184,34 @@ TEST(DenseCloud, KeepsWhatOutlinesOfOtherMapsHide)
   }
 }
 
+TEST(DenseCloud, TakesWhatAPlaneHoldsFromItsOwnViewAlone)
+{
+  ViewDisparity map = constantMap(CENTRE, 2.0F);
+  const cv::Rect blank(20, 15, 10, 8);
+  map.held = cv::Mat::zeros(HEIGHT, WIDTH, CV_32FC1);
+  map.held(blank).setTo(0.25F);
+  map.confidence(blank).setTo(0.0F);
+  std::size_t held = 0;
+  for (const DensePoint& point : cloudOf({map}))
+  {
+    held += point.confidence == 0.25F ? 1 : 0;
+    ASSERT_NEAR(point.z, 10.0 / 7.0, 1e-4);
+  }
+  EXPECT_EQ(held, static_cast<std::size_t>(blank.area()));
+  DenseCloudOptions surer;
+  surer.min_confidence = 0.3F;
+  for (const DensePoint& point : cloudOf({map}, surer))
+  {
+    ASSERT_EQ(point.confidence, 1.0F);
+  }
+  // A sure map that sees something behind it is right.
+  const ViewDisparity other = constantMap(3, 0.0F);
+  for (const DensePoint& point : cloudOf({map, other}))
+  {
+    ASSERT_NE(point.confidence, 0.25F);
+  }
+}
+
 TEST(DenseCloud, DropsWhatASureMapSeesThrough)
 {
   // Two maps have a board that the third, which is sure, does not see: it looks at the wall behind.

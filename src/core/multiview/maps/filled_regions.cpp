@@ -10,6 +10,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "core/multiview/maps/disparity_plane.h"
 #include "core/multiview/refine/cell_sums.h"
 
 namespace light_field_depth::multiview
@@ -27,14 +28,6 @@ constexpr std::size_t MAX_KNOWN = 512;
 constexpr int RANDOM_SEED = 17;
 /// How far outside of a region its plane has to go on.
 constexpr int BEYOND_PX = 2 * CELL_PX;
-
-/// disparity = gradient . (x, y) + offset.
-struct DisparityPlane
-{
-  cv::Vec3d coefficients;
-
-  double at(double x, double y) const { return coefficients.dot({x, y, 1.0}); }
-};
 
 /// A known pixel that touches a region, and one beyond it as seen from the region: x, y and disparity.
 struct KnownPixel
@@ -157,21 +150,6 @@ private:
   cv::Mat waiting_;  ///< filled cells that are in no region yet
   cv::Point scanned_;
 };
-
-std::optional<DisparityPlane> planeThrough(const std::array<cv::Vec3d, 3>& points)
-{
-  const cv::Vec3d normal = (points[1] - points[0]).cross(points[2] - points[0]);
-  if (std::abs(normal[2]) < 1e-6 || !std::isfinite(normal[2]))
-  {
-    return std::nullopt;  // in one line of the image
-  }
-  return DisparityPlane{{-normal[0] / normal[2], -normal[1] / normal[2], normal.dot(points[0]) / normal[2]}};
-}
-
-bool isOn(const DisparityPlane& plane, const cv::Vec3d& point, double tolerance)
-{
-  return std::abs(plane.at(point[0], point[1]) - point[2]) <= tolerance;
-}
 
 Fit fitOf(const std::vector<KnownPixel>& known, const DisparityPlane& plane, double tolerance)
 {
