@@ -37,6 +37,7 @@ COVERED_BY = {
     'result_publisher': 'test_depth_node',
     'batch_fusion': 'test_dense_cloud',
     'surface_fusion': 'test_dense_cloud',
+    'textured_pixels': 'test_view_samples',
     'surface_map': 'test_dense_cloud',
     'surface_warp': 'test_dense_cloud',
     'view_frames': 'test_robot',

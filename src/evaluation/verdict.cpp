@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "evaluation/view_exchange.h"
 #include "evaluation/view_samples.h"
 #include "light_field_depth/core/depth_sign.h"
 #include "light_field_depth/core/view_layout.h"
@@ -200,6 +201,19 @@ void judgeViews(const LightField& light_field, const ViewSamples& samples, const
   }
 }
 
+void judgeExchanges(const LightField& light_field, const cv::Mat& disparity, const VerdictOptions& options,
+                    ThreadPool& pool, Verdict& verdict)
+{
+  const std::vector<ViewExchange> exchanges =
+      findExchanges(light_field, disparity, options.min_exchange_significance, pool);
+  for (const ViewExchange& exchange : exchanges)
+  {
+    add(verdict, "exchanged views", true, exchange.significance,
+        "The " + viewText(light_field, exchange.first) + " and " + viewText(light_field, exchange.second) +
+            " have changed places, as what is near and far in them tells; check the order of the files.");
+  }
+}
+
 void judgeRange(const ViewSamples& samples, const DisparityRange& range, const VerdictOptions& options,
                 Verdict& verdict)
 {
@@ -332,6 +346,7 @@ Verdict judgeResult(const LightField& light_field, const DisparityEstimate& esti
   const ViewSamples samples = sampleViews(bytes, estimate.disparity, pool);
   judgeAgreement(samples, options, verdict);
   judgeViews(light_field, samples, options, verdict);
+  judgeExchanges(bytes, estimate.disparity, options, pool, verdict);
   judgeRange(samples, estimate.range, options, verdict);
   putWarningsFirst(verdict);
   return verdict;

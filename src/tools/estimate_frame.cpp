@@ -64,7 +64,9 @@ void describeResult(const PipelineResult& result, const PhotometricError& error,
 }
 
 /// What reading the dataset, the places of the views and the result give to doubt.
-Verdict judge(const Dataset& dataset, const DisparityEstimate& estimate, ThreadPool& pool)
+/// @param registered the views as they were matched
+Verdict judge(const Dataset& dataset, const LightField& registered, const DisparityEstimate& estimate,
+              ThreadPool& pool)
 {
   Verdict verdict;
   for (const std::string& warning : dataset.warnings)
@@ -72,7 +74,7 @@ Verdict judge(const Dataset& dataset, const DisparityEstimate& estimate, ThreadP
     verdict.findings.push_back({"input", Finding::Severity::Warning, 1.0, warning});
   }
   for (const Verdict& more :
-       {judgeOrder(dataset.light_field, pool, false), judgeResult(dataset.light_field, estimate, pool)})
+       {judgeOrder(dataset.light_field, pool, false), judgeResult(registered, estimate, pool)})
   {
     verdict.findings.insert(verdict.findings.end(), more.findings.begin(), more.findings.end());
   }
@@ -116,7 +118,7 @@ bool estimateFrame(const EstimateArguments& arguments, const EstimateInput& inpu
   describeResult(result, photometricError(registered, result.estimate.disparity, pool), report);
 
   const Stopwatch verdict_watch;
-  report.verdict = judge(dataset, result.estimate, pool);
+  report.verdict = judge(dataset, registered, result.estimate, pool);
   report.stage_times.push_back({"verdict", verdict_watch.milliseconds()});
 
   guard.check();

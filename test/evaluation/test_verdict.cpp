@@ -165,6 +165,10 @@ std::vector<MisSetCase> ordersThatAreWrong()
       {"transposed, near is far", relabel({true, true, true})},
       {"shuffled", reorder([](std::size_t i) { return (7 * i + 3) % 25; })},
       {"opposite corners swapped", exchange(at(0, 0), at(4, 4))},
+      {"neighbours in the middle row swapped", exchange(at(2, 3), at(2, 4))},
+      {"neighbours in the middle column swapped", exchange(at(0, 2), at(1, 2))},
+      {"neighbours in the first row swapped", exchange(at(0, 1), at(0, 2))},
+      {"reference swapped with its neighbour", exchange(CENTRE, at(2, 3))},
       {"ends of the middle row swapped", exchange(at(2, 0), at(2, 4))},
       {"ends of the middle column swapped", exchange(at(0, 2), at(4, 2))},
       {"reference swapped with a corner", exchange(CENTRE, at(0, 0))},
@@ -365,6 +369,14 @@ TEST(Verdict, NamesTheViewThatIsOfAnotherScene)
   otherScene({at(2, 4)})(field);
   const std::string warnings = warningsOf(judgedByOrder(field, false));
   EXPECT_NE(warnings.find("view (2, 4)"), std::string::npos) << warnings;
+}
+
+TEST(Verdict, SaysWhichNeighboursAreSwapped)
+{
+  LightField field = rightLightField();
+  exchange(at(2, 3), at(2, 4))(field);
+  const std::string warnings = warningsOf(judgedByResult(field, std::nullopt));
+  EXPECT_NE(warnings.find("view (2, 3) and view (2, 4) have changed places"), std::string::npos) << warnings;
 }
 
 TEST(Verdict, SaysWhereASwappedViewBelongs)
