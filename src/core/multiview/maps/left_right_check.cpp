@@ -156,59 +156,107 @@ class ColourMedian
 {
 public:
   ColourMedian(const cv::Mat& image, const cv::Mat& disparity, const BackgroundFillSettings& settings)
-      : image_(image), disparity_(disparity), radius_(settings.radius_px),
+      : image_(image), disparity_(disparity), radius_(settings.radius_px), stride_(settings.stride_px),
         weights_(colourWeights(image.channels(), settings.colour_scale))
   {
   }
 
   float at(int x, int y)
   {
-    constexpr int STRIDE = 2;  // a quarter of the samples are enough for a median
     samples_.clear();
-    float total = 0.0F;
-    const int channels = image_.channels();
-    const std::uint8_t* const here = image_.ptr<std::uint8_t>(y) + static_cast<std::ptrdiff_t>(x) * channels;
-    for (int row = y - radius_; row <= y + radius_; row += STRIDE)
-    {
-      if (row < 0 || row >= disparity_.rows)
-      {
-        continue;
-      }
-      const auto* const values = disparity_.ptr<float>(row);
-      const std::uint8_t* const colours = image_.ptr<std::uint8_t>(row);
-      for (int column = x - radius_; column <= x + radius_; column += STRIDE)
-      {
-        if (column < 0 || column >= disparity_.cols)
-        {
-          continue;
-        }
-        const std::uint8_t* const there = colours + static_cast<std::ptrdiff_t>(column) * channels;
-        std::size_t difference = 0;
-        for (int channel = 0; channel < channels; ++channel)
-        {
-          difference += static_cast<std::size_t>(std::abs(here[channel] - there[channel]));
-        }
-        samples_.emplace_back(values[column], weights_[difference]);
-        total += weights_[difference];
-      }
-    }
-    std::sort(samples_.begin(), samples_.end());
-    float sum = 0.0F;
-    for (const auto& [value, weight] : samples_)
-    {
-      sum += weight;
-      if (sum >= 0.5F * total)
-      {
-        return value;
-      }
-    }
-    return disparity_.at<float>(y, x);
+    const float total = image_.channels() == 1 ? collect<1>(x, y) : collect<3>(x, y);
+    return weightedMedian(0.5F * total);
   }
 
 private:
+  /// @return the sum of the weights
+  template <int CHANNELS>
+  float collect(int x, int y)
+  {
+    // Of the columns (rows) x - radius, x - radius + stride, ... the first one inside of the image.
+    const auto first_in = [&](int centre)
+    {
+      const int first = centre - radius_;
+      return first >= 0 ? first : first + (stride_ - 1 - first) / stride_ * stride_;
+    };
+    const int left = first_in(x);
+    const int top = first_in(y);
+    const int right = std::min(x + radius_, disparity_.cols - 1);
+    const int bottom = std::min(y + radius_, disparity_.rows - 1);
+    const std::uint8_t* const here = image_.ptr<std::uint8_t>(y) + static_cast<std::ptrdiff_t>(x) * CHANNELS;
+    float total = 0.0F;
+    for (int row = top; row <= bottom; row += stride_)
+    {
+      const auto* const values = disparity_.ptr<float>(row);
+      const std::uint8_t* const colours = image_.ptr<std::uint8_t>(row);
+      for (int column = left; column <= right; column += stride_)
+      {
+        const std::uint8_t* const there = colours + static_cast<std::ptrdiff_t>(column) * CHANNELS;
+        int difference = 0;
+        for (int channel = 0; channel < CHANNELS; ++channel)
+        {
+          difference += std::abs(here[channel] - there[channel]);
+        }
+        const float weight = weights_[static_cast<std::size_t>(difference)];
+        samples_.emplace_back(values[column], weight);
+        total += weight;
+      }
+    }
+    return total;
+  }
+
+  /// The least value of the samples up to which their weights sum up to this: only the part in which it lies
+  /// is looked at again.
+  float weightedMedian(float half)
+  {
+    auto first = samples_.begin();
+    auto last = samples_.end();
+    while (last - first > 1)
+    {
+      const float pivot = first[(last - first) / 2].first;
+      float below = 0.0F;
+      float equal = 0.0F;
+      auto small_end = first;
+      auto equal_end = first;
+      for (auto sample = first; sample != last; ++sample)
+      {
+        if (sample->first > pivot)
+        {
+          continue;
+        }
+        std::swap(*sample, *equal_end);
+        if (equal_end->first < pivot)
+        {
+          below += equal_end->second;
+          std::swap(*equal_end, *small_end++);
+        }
+        else
+        {
+          equal += equal_end->second;
+        }
+        ++equal_end;
+      }
+      if (half <= below)
+      {
+        last = small_end;
+      }
+      else if (half <= below + equal || equal_end == last)
+      {
+        return pivot;  // at the very end rounding may have left a little weight over
+      }
+      else
+      {
+        half -= below + equal;
+        first = equal_end;
+      }
+    }
+    return first->first;
+  }
+
   const cv::Mat& image_;
   const cv::Mat& disparity_;
   int radius_;
+  int stride_;
   std::vector<float> weights_;
   std::vector<std::pair<float, float>> samples_;
 };

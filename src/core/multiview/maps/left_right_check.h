@@ -31,7 +31,8 @@ cv::Mat findUnconfirmed(const cv::Mat& disparity, const View& other, const cv::M
 /// How pixels without a disparity of their own get one.
 struct BackgroundFillSettings
 {
-  int radius_px = 10;          ///< of the window of the median, in which every second row and column counts
+  int radius_px = 10;          ///< of the window of the median
+  int stride_px = 2;           ///< of its rows and columns that count; a multiple of it leads to the middle
   float colour_scale = 10.0F;  ///< difference of colour, mean of the channels, that lowers a weight by e
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -121,6 +123,80 @@ TEST(BackgroundFill, FillsColumnsAsRows)
   fillFromBackground(image, hidden(), false, {}, pool, map);
   fillFromBackground(image.t(), hidden().t(), true, {}, pool, turned);
   EXPECT_EQ(disagreements(map, turned.t()), 0);
+}
+
+/// The weighted median about a pixel, by sorting all samples.
+float medianBySorting(const cv::Mat& image, const cv::Mat& map, const cv::Point& at,
+                      const BackgroundFillSettings& settings)
+{
+  std::vector<std::pair<float, float>> samples;
+  double total = 0.0;
+  for (int y = at.y - settings.radius_px; y <= at.y + settings.radius_px; y += settings.stride_px)
+  {
+    for (int x = at.x - settings.radius_px; x <= at.x + settings.radius_px; x += settings.stride_px)
+    {
+      if (cv::Rect({}, map.size()).contains({x, y}))
+      {
+        const auto here = image.at<cv::Vec3b>(at);
+        const auto there = image.at<cv::Vec3b>(y, x);
+        const double difference = cv::norm(cv::Vec3i(here) - cv::Vec3i(there), cv::NORM_L1) / 3.0;
+        const auto weight = static_cast<float>(std::exp(-difference / settings.colour_scale));
+        samples.emplace_back(map.at<float>(y, x), weight);
+        total += weight;
+      }
+    }
+  }
+  std::sort(samples.begin(), samples.end());
+  double sum = 0.0;
+  for (const auto& [value, weight] : samples)
+  {
+    sum += weight;
+    if (sum >= 0.5 * total)
+    {
+      return value;
+    }
+  }
+  return samples.back().first;
+}
+
+TEST(BackgroundFill, TakesTheMedianOfWhatHasTheSameColour)
+{
+  cv::RNG random(11);
+  cv::Mat image(SIZE, CV_8UC3);
+  random.fill(image, cv::RNG::UNIFORM, 90, 130);
+  cv::Mat map(SIZE, CV_32FC1);
+  random.fill(map, cv::RNG::UNIFORM, 0.0, 20.0);
+  map.colRange(0, 48).forEach<float>([](float& value, const int*) { value = std::round(value / 4.0F); });
+  cv::Mat marked = cv::Mat::zeros(SIZE, CV_8UC1);
+  std::vector<cv::Point> pixels;
+  for (int y = 1; y < SIZE.height; y += 7)
+  {
+    for (int x = 1; x < SIZE.width; x += 5)
+    {
+      pixels.emplace_back(x, y);
+      marked.at<std::uint8_t>(y, x) = 255;
+    }
+  }
+  cv::Mat before = map.clone();  // as it is when rows are filled
+  for (const cv::Point& at : pixels)
+  {
+    const cv::Point left = at - cv::Point(1, 0);
+    const float right = at.x + 1 < SIZE.width ? map.at<float>(at + cv::Point(1, 0)) : map.at<float>(left);
+    before.at<float>(at) = std::min(map.at<float>(left), right);
+  }
+  BackgroundFillSettings coarse;
+  coarse.radius_px = 9;
+  coarse.stride_px = 3;
+  ThreadPool pool(2);
+  for (const BackgroundFillSettings& settings : {BackgroundFillSettings(), coarse})
+  {
+    cv::Mat filled = map.clone();
+    fillFromBackground(image, marked, false, settings, pool, filled);
+    for (const cv::Point& at : pixels)
+    {
+      EXPECT_EQ(filled.at<float>(at), medianBySorting(image, before, at, settings)) << at;
+    }
+  }
 }
 
 TEST(BackgroundFill, ReachesRowsWithoutAnyValueAndLeavesAMapWithoutAnyAsItIs)
