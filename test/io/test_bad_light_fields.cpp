@@ -20,6 +20,7 @@
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/pipeline.h"
 #include "light_field_depth/io/dataset.h"
+#include "support/sanitizers.h"
 #include "support/temporary_folder.h"
 
 namespace light_field_depth
@@ -340,10 +341,11 @@ TEST_P(BadLightFields, GiveARightAnswerOrOneSentence)
   const pid_t child = fork();
   if (child == 0)
   {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    const rlimit memory = {MOST_MEMORY_BYTES, MOST_MEMORY_BYTES};
-    setrlimit(RLIMIT_AS, &memory);
-#endif
+    if (testing::CAN_LIMIT_ADDRESS_SPACE)
+    {
+      const rlimit memory = {MOST_MEMORY_BYTES, MOST_MEMORY_BYTES};
+      setrlimit(RLIMIT_AS, &memory);
+    }
     const rlimit time = {MOST_SECONDS, MOST_SECONDS};
     setrlimit(RLIMIT_CPU, &time);
     alarm(10 * MOST_SECONDS);  // whoever waits uses no processor

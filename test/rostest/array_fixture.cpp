@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "light_field_depth/ros/view_array.h"
+#include "support/sanitizers.h"
 
 namespace light_field_depth::testing
 {
@@ -32,7 +33,7 @@ const Calibration& arrayCalibration()
 
 bool waitFor(const std::function<bool()>& condition, std::chrono::milliseconds deadline)
 {
-  const auto end = std::chrono::steady_clock::now() + deadline;
+  const auto end = std::chrono::steady_clock::now() + SLOWNESS * deadline;
   while (!condition())
   {
     if (std::chrono::steady_clock::now() > end)

@@ -19,7 +19,8 @@
 
 namespace light_field_depth::testing
 {
-/// Waits until a condition holds. @return false when it did not before the deadline
+/// Waits until a condition holds. @param deadline later under a sanitizer
+/// @return false when it did not before the deadline
 bool waitFor(const std::function<bool()>& condition,
              std::chrono::milliseconds deadline = std::chrono::seconds(20));
 

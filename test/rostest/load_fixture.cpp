@@ -81,6 +81,7 @@ sensor_msgs::ImagePtr DriverArray::freeImage(Driver& driver)
 
 void DriverArray::publish(const ros::Time& stamp)
 {
+  const std::lock_guard<std::mutex> lock(mutex_);
   for (Driver& driver : drivers_)
   {
     const sensor_msgs::ImagePtr image = freeImage(driver);
@@ -96,6 +97,30 @@ bool DriverArray::isHeard() const
                        return driver.image_publisher.getNumSubscribers() > 0 &&
                               driver.info_publisher.getNumSubscribers() > 0;
                      });
+}
+
+double DriverArray::imagesMb() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  double bytes = 0.0;
+  for (const Driver& driver : drivers_)
+  {
+    bytes += static_cast<double>(driver.images.size() * driver.images.front()->data.size());
+  }
+  return bytes / BYTES_PER_MB;
+}
+
+std::size_t DriverArray::imagesHeld() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::size_t held = 0;
+  for (const Driver& driver : drivers_)
+  {
+    held += static_cast<std::size_t>(std::count_if(driver.images.begin(), driver.images.end(),
+                                                   [](const sensor_msgs::ImagePtr& image)
+                                                   { return image.use_count() > 1; }));
+  }
+  return held;
 }
 
 StatsReader::StatsReader(ros::NodeHandle node_space)

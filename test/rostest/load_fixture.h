@@ -42,6 +42,9 @@ public:
   /// Publishes all views with one stamp.
   void publish(const ros::Time& stamp);
   bool isHeard() const;  ///< on every topic
+  /// Memory of the images that were ever needed at one time, in MB, and how many of them somebody has still.
+  double imagesMb() const;
+  std::size_t imagesHeld() const;
 
 private:
   struct Driver
@@ -54,6 +57,7 @@ private:
 
   static sensor_msgs::ImagePtr freeImage(Driver& driver);
 
+  mutable std::mutex mutex_;  // of the lists of images
   std::vector<Driver> drivers_;
 };
 

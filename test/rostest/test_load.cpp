@@ -20,6 +20,7 @@
 #include <stereo_msgs/DisparityImage.h>
 
 #include "load_fixture.h"
+#include "support/sanitizers.h"
 
 namespace light_field_depth::testing
 {
@@ -36,6 +37,9 @@ double meanOf(std::vector<double>::const_iterator first, std::vector<double>::co
 {
   return std::accumulate(first, last, 0.0) / static_cast<double>(last - first);
 }
+
+/// Frames of which somebody may have the images when nothing is in work.
+constexpr std::size_t MOST_FRAMES_HELD = 1;
 
 /// More than the node can do, in a namespace of its own.
 struct Load
@@ -108,7 +112,7 @@ TEST_P(LoadTest, IsBorneWithMemoryCountsAndViewsInOrder)
   while (secondsSince(start) < load_of.seconds)
   {
     std::this_thread::sleep_for(std::chrono::duration<double>(sample_s));
-    memory_mb.push_back(residentMb());
+    memory_mb.push_back(residentMb() - array.imagesMb());
   }
   const ros::Time last_stamp = flood.stop();
   const double seconds = secondsSince(start);
@@ -133,7 +137,9 @@ TEST_P(LoadTest, IsBorneWithMemoryCountsAndViewsInOrder)
     EXPECT_EQ(after.dropped_by_view[view], 0U) << view;
   }
 
-  // The second tenth of the time and the last: of ten minutes the second and the last.
+  // Without the drivers' images, which are as many as once were on their way together: how many that is
+  // depends on who gets the processor. The second tenth of the time and the last: of ten minutes the second
+  // and the last.
   const auto tenth = static_cast<std::ptrdiff_t>(memory_mb.size() / 10);
   const double early_mb = meanOf(memory_mb.begin() + tenth, memory_mb.begin() + 2 * tenth);
   const double late_mb = meanOf(memory_mb.end() - tenth, memory_mb.end());
@@ -144,7 +150,7 @@ TEST_P(LoadTest, IsBorneWithMemoryCountsAndViewsInOrder)
   std::sort(times.latency_ms.begin(), times.latency_ms.end());
   const double median_ms = times.latency_ms[times.latency_ms.size() / 2];
   // A set waits for the frame in hand, and is then computed itself; threads may have to wait for a processor.
-  constexpr double BUSY_MACHINE_MS = 200.0;
+  constexpr double BUSY_MACHINE_MS = 200.0 * SLOWNESS;
   EXPECT_LT(times.latency_ms.back(), 2.0 * times.longest_computing_ms + BUSY_MACHINE_MS);
 
   std::this_thread::sleep_for(std::chrono::duration<double>(std::max(0.0, 1.0 - secondsSince(end))));
@@ -156,6 +162,9 @@ TEST_P(LoadTest, IsBorneWithMemoryCountsAndViewsInOrder)
     EXPECT_EQ(frame.frames_dropped, after.frames_dropped);
     normal_ms = std::max(normal_ms, frame.latency_ms);
   }
+
+  // The node has those of the last frame, and the topics latch none.
+  EXPECT_LE(array.imagesHeld(), MOST_FRAMES_HELD * after.received_by_view.size());
 
   std::ostringstream row;
   row.precision(3);
@@ -213,7 +222,7 @@ TEST_F(ManagerTest, LoadsReconfiguresAndUnloadsUnderLoad)
     }
   }
   // 2 s is what is promised; the rest is for machines that are busy with other tests.
-  EXPECT_LT(longest_s, 5.0);
+  EXPECT_LT(longest_s, 5.0 * SLOWNESS);
   // What is allocated stays the same; it is scattered over more pages with every round.
   EXPECT_LT(residentMb(), (isSoak() ? 1.15 : 1.5) * early_mb);
   EXPECT_LE(threadCount(), early_threads + 2) << "those of ROS come and go";

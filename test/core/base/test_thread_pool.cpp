@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "light_field_depth/core/thread_pool.h"
+#include "support/sanitizers.h"
 
 namespace light_field_depth
 {
@@ -80,6 +81,10 @@ private:
 
 TEST(ThreadPool, RefusesMoreThreadsThanTheSystemGives)
 {
+  if (!testing::CAN_LIMIT_ADDRESS_SPACE)
+  {
+    GTEST_SKIP() << "with a sanitizer";
+  }
   {
     const AddressSpaceLimit room_for_few_stacks(rlim_t{1} << 30);
     EXPECT_THROW(ThreadPool(4096), InputError);
