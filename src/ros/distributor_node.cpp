@@ -103,7 +103,7 @@ public:
         views_.back().push_back(advertiseView(inWorker(worker, view.image)));
       }
     }
-    forwardCameraInfos();
+    forwardLatchedTopics();
     addResult<stereo_msgs::DisparityImage>("disparity");
     addResult<sensor_msgs::Image>("disparity_color");
     addResult<sensor_msgs::Image>("depth");
@@ -124,7 +124,7 @@ public:
   {
     timer_.stop();
     input_.unsubscribe();
-    for (ros::Subscriber& subscriber : info_subscribers_)
+    for (ros::Subscriber& subscriber : latched_subscribers_)
     {
       subscriber.shutdown();
     }
@@ -164,28 +164,37 @@ private:
                : node_handle_.advertise<sensor_msgs::Image>(topic, QUEUE_SIZE);
   }
 
-  /// To all workers, latched for those that come later.
-  void forwardCameraInfos()
+  /// What belongs to no single set goes to all workers, latched for those that come later: calibration and
+  /// masks. What is in the images or in files, alpha and mask_file, the workers have themselves.
+  void forwardLatchedTopics()
   {
     for (const ViewTopics& view : parameters_.array.views)
     {
-      std::vector<ros::Publisher> publishers;
-      for (const std::string& worker : workers_)
+      forwardLatched<sensor_msgs::CameraInfo>(view.camera_info);
+      if (!view.mask.empty())
       {
-        publishers.push_back(
-            node_handle_.advertise<sensor_msgs::CameraInfo>(inWorker(worker, view.camera_info), 1, true));
+        forwardLatched<sensor_msgs::Image>(view.mask);
       }
-      const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> on_info =
-          [publishers](const sensor_msgs::CameraInfoConstPtr& info)
-      {
-        for (const ros::Publisher& publisher : publishers)
-        {
-          publisher.publish(info);
-        }
-      };
-      info_subscribers_.push_back(
-          node_handle_.subscribe<sensor_msgs::CameraInfo>(view.camera_info, 1, on_info));
     }
+  }
+
+  template <class Message>
+  void forwardLatched(const std::string& topic)
+  {
+    std::vector<ros::Publisher> publishers;
+    for (const std::string& worker : workers_)
+    {
+      publishers.push_back(node_handle_.advertise<Message>(inWorker(worker, topic), 1, true));
+    }
+    const boost::function<void(const boost::shared_ptr<const Message>&)> on_message =
+        [publishers](const boost::shared_ptr<const Message>& message)
+    {
+      for (const ros::Publisher& publisher : publishers)
+      {
+        publisher.publish(message);
+      }
+    };
+    latched_subscribers_.push_back(node_handle_.subscribe<Message>(topic, 1, on_message));
   }
 
   template <class Message>
@@ -374,7 +383,7 @@ private:
   const NodeParameters parameters_;
   const std::vector<std::string> workers_;
 
-  std::vector<ros::Subscriber> info_subscribers_;
+  std::vector<ros::Subscriber> latched_subscribers_;
 
   std::mutex mutex_;                                ///< guards what follows, but for input_
   std::vector<std::vector<ros::Publisher>> views_;  ///< of each worker
