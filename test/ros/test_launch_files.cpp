@@ -160,6 +160,44 @@ TEST(LaunchFiles, PassTheirArgumentsToEveryWorkerAndToTheDistributor)
   }
 }
 
+/// Runs roslaunch's own loader over a file. @return "NODE MACHINE" of each node
+std::string machinesOf(const std::string& launch_file, int expected_exit_code = 0)
+{
+  const std::string program =
+      "import sys, roslaunch.config; config = roslaunch.config.load_config_default([sys.argv[1]], None, "
+      "verbose=False); "
+      "[print(node.namespace + node.name, node.machine_name) for node in config.nodes]";
+  const Outcome outcome =
+      runProgram("/usr/bin/python3 -c " + testing::quoted(program) + " " + testing::quoted(launch_file));
+  EXPECT_EQ(outcome.exit_code, expected_exit_code) << outcome.errors;
+  return outcome.output + outcome.errors;
+}
+
+TEST(LaunchFiles, PutEveryWorkerOnAMachineOfItsOwn)
+{
+  const testing::TemporaryFolder folder;
+  const auto write = [&](const char* name, const std::string& machines)
+  {
+    return folder
+        .write(name,
+               "<launch>" + machines + "<include file='" +
+                   std::filesystem::absolute("launch/distributed.launch").string() +
+                   "'><arg name='workers' value='2'/><arg name='machines' value='m'/></include></launch>")
+        .string();
+  };
+  const std::string first = "<machine name='m0' address='192.0.2.1' user='ros' env-loader='/opt/env.sh'/>";
+  const std::string second = "<machine name='m1' address='192.0.2.2' user='ros' env-loader='/opt/env.sh'/>";
+  const std::string nodes = machinesOf(write("two.launch", first + second));
+  for (const char* const node : {"/worker_0/light_field_depth m0", "/worker_1/light_field_depth m1"})
+  {
+    EXPECT_NE(nodes.find(node), std::string::npos) << node << "\n" << nodes;
+  }
+  // The distributor stays where roslaunch runs.
+  EXPECT_NE(nodes.find("/light_field_depth None"), std::string::npos) << nodes;
+  const std::string error = machinesOf(write("one.launch", first), 1);
+  EXPECT_NE(error.find("m1"), std::string::npos) << error;
+}
+
 /// What roslaunch would start a node with.
 std::string commandOf(const std::string& node, const std::string& launch)
 {
