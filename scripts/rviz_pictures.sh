@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Pictures of RViz, as the launch files show it: the two robots of array.launch in their own frame, the demo's cross in the
-# camera's upright one, and an array of another name without a robot. After ./run build, with source devel/setup.bash.
+# camera's upright one and in a namespace, and an array of another name without a robot. After ./run build, with source
+# devel/setup.bash.
 #
 # usage: rviz_pictures.sh [FOLDER]     (rviz_pictures)
 set -euo pipefail
@@ -33,4 +34,5 @@ start_virtual_display
 picture grid_3x3 array.launch array:=grid_3x3
 picture row_1x5 array.launch array:=row_1x5
 picture demo play.launch input:="$TOP/data/demo" temporal:=false
+ROS_NAMESPACE=robot picture demo_in_namespace play.launch input:="$TOP/data/demo" temporal:=false
 picture grid_3x3_upright play.launch input:="$TOP/data/robots/grid_3x3" array:=grid_3x3 name:=front rate:=5
