@@ -80,6 +80,11 @@ std::optional<std::size_t> framePlace(const NameGroup& group)
       return first > second ? varying.front() : varying.back();
     }
   }
+  // Frame, row and column: without the first of the three numbers no two of them tell all names apart.
+  if (varying.size() == 3 && !rowAndColumnIn(group))
+  {
+    return varying.front();
+  }
   return std::nullopt;
 }
 
