@@ -331,6 +331,15 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
     views[i].mask = store.mask(description.views[i].id);
     dataset.files.push_back(description.views[i].path);
   }
+  const auto masked =
+      std::count_if(views.begin(), views.end(), [](const View& view) { return !view.mask.empty(); });
+  if (masked > 0)
+  {
+    description.notes.push_back(
+        std::to_string(masked) + " of " + std::to_string(views.size()) +
+        " views show nothing in parts (transparent, or not reached when they were rectified); "
+        "these take no part.");
+  }
   for (const std::string& note : makeAlike(views, placed.reference))
   {
     description.notes.push_back(note);

@@ -90,6 +90,58 @@ std::string quoted(const fs::path& path)
                    "; keep one of them in the folder.");
 }
 
+/// Where a single letter stands by itself in a name: the A of camA, of cam_A and of cam_A1. The last such
+/// place.
+std::optional<std::size_t> letterIn(const std::string& stem)
+{
+  const auto is_upper = [](char letter) { return std::isupper(static_cast<unsigned char>(letter)) != 0; };
+  for (std::size_t i = stem.size(); i-- > 0;)
+  {
+    const bool begins = i == 0 || !isLetter(stem[i - 1]) || (is_upper(stem[i]) && !is_upper(stem[i - 1]));
+    const bool ends = i + 1 == stem.size() || !isLetter(stem[i + 1]);
+    if (isLetter(stem[i]) && begins && ends)
+    {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The name with a number in the place of that letter: cam_B1 becomes cam_2_1.
+fs::path withNumberForLetter(const fs::path& path, std::size_t place)
+{
+  std::string stem = path.stem().string();
+  const int number = std::tolower(static_cast<unsigned char>(stem[place])) - 'a' + 1;
+  const bool is_followed = place + 1 < stem.size() && isDigit(stem[place + 1]);
+  stem.replace(place, 1, "_" + std::to_string(number) + (is_followed ? "_" : ""));
+  return path.parent_path() / (stem + path.extension().string());
+}
+
+/// Whether letters count the views: at least three of them, in names that are equal beside them and their
+/// numbers. Two letters may be a left and a right one.
+bool areCountedByLetters(const std::vector<fs::path>& paths)
+{
+  constexpr std::size_t MIN_LETTERS = 3;
+  std::set<std::string> forms;
+  std::set<char> letters;
+  for (const fs::path& path : paths)
+  {
+    const std::string stem = path.stem().string();
+    if (saysNoView(stem))
+    {
+      continue;
+    }
+    const std::optional<std::size_t> place = letterIn(stem);
+    if (!place || stem.size() == 1)  // bare letters may name anything
+    {
+      return false;
+    }
+    letters.insert(static_cast<char>(std::tolower(static_cast<unsigned char>(stem[*place]))));
+    forms.insert(takeApart(withNumberForLetter(path, *place)).form);
+  }
+  return forms.size() == 1 && letters.size() >= MIN_LETTERS;
+}
+
 /// Whether a smaller group could as well be the light field.
 bool isRival(const NameGroup& group, const NameGroup& largest)
 {
@@ -196,9 +248,12 @@ std::optional<ViewNames> viewNames(const fs::path& folder, const std::vector<fs:
 {
   std::map<std::string, NameGroup> groups;
   ViewNames views;
+  const bool by_letters = areCountedByLetters(paths);
   for (const fs::path& path : paths)
   {
-    NumberedName name = takeApart(path);
+    const std::optional<std::size_t> letter = by_letters ? letterIn(path.stem().string()) : std::nullopt;
+    NumberedName name = takeApart(letter ? withNumberForLetter(path, *letter) : path);
+    name.path = path;
     if (name.numbers.empty())
     {
       views.left_out.push_back(path);

@@ -78,6 +78,8 @@ std::vector<Animal> namedByRowAndColumn()
       {"param.txt beside them", FIVE, "grid",
        both(grid(FIVE, [](int r, int c) { return padded(r, 2) + "_" + padded(c, 2) + ".png"; }),
             text("param.txt", "num_x 5\nnum_y 5\nbase_x 0.1\nbase_y 0.1\n"))},
+      named("letters for rows", [](int r, int c)
+            { return std::string("cam_") + static_cast<char>('A' + r) + padded(c + 1, 1) + ".png"; }),
       named("spaces and letters beyond ASCII", [](int r, int c)
             { return "B\u00FCste \u82B1 (" + padded(r, 1) + ", " + padded(c, 1) + ").png"; }),
       named("thumbnails, masks and truth beside it",
@@ -131,6 +133,8 @@ std::vector<Animal> namedByIndex()
       {"a folder in a folder", FIVE, "grid",
        grid(FIVE,
             [](int r, int c) { return "Scene/images/views/" + padded(r, 1) + "_" + padded(c, 1) + ".png"; })},
+      {"a row of letters", ROW, "index",
+       grid(ROW, [](int, int c) { return std::string("cam") + static_cast<char>('A' + c) + ".png"; })},
       {"a row", ROW, "index", grid(ROW, [](int, int c) { return "view" + padded(c, 1) + ".png"; })},
       {"a folder for each camera", FIVE, "index of folders",
        grid(FIVE, [=](int r, int c) { return "cam_" + padded(index(r, c), 2) + "/image_000.JPG"; }), 5.0},
