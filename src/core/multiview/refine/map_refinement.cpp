@@ -1,5 +1,10 @@
 #include "core/multiview/refine/map_refinement.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
 namespace light_field_depth::multiview
 {
 namespace
@@ -7,6 +12,15 @@ namespace
 /// How far a refined disparity may lie outside the range of the search, in pixels: slopes of surfaces at the
 /// end of the range go on.
 constexpr float REACH_PX = 1.0F;
+/// How far rows and columns may place pixels apart (median, px) before less is believed: clean renders 0.003
+/// to 0.005, plenoptic captures 0.005 to 0.008, arrays 0.018. Noise of the values explains more of it. Twice
+/// as little helps captures and costs noisy renders; docs/experiments.md.
+constexpr float EXPLAINED_DISAGREEMENT_PX = 0.003F;
+constexpr float EXPLAINED_PER_VARIANCE = 0.75F;
+/// With a tenth soft edges, as cameras see them, are off by 0.07 px on 15 instead of 12 % of the pixels, with
+/// a quarter the demo's cloud of five maps has 0.12 instead of 0.07 % of flying points.
+constexpr float LEAST_BELIEVED = 0.5F;
+constexpr float TINY_SQUARE = 1e-12F;
 /// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 32;
 
@@ -31,6 +45,37 @@ void keepInRange(const DisparityRange& range, const cv::Mat& start, ThreadPool& 
                        }
                      }
                    });
+}
+
+/// The part of the most that a pixel may weigh, from how far rows and columns place well-textured pixels
+/// apart. What they get wrong for themselves, by their sampling, demosaicing or places, no window averages
+/// away.
+float believed(const Linearization& linearization, float value_variance)
+{
+  constexpr int stride_px = 4;
+  constexpr float textured = 20.0F;  // curvature a pixel, as of SlopeSettings::full_weight
+  std::vector<float> disagreements;
+  for (int y = 0; y < linearization.weight.rows; y += stride_px)
+  {
+    const auto* const weight = linearization.weight.ptr<float>(y);
+    const auto* const disagreement = linearization.disagreement.ptr<float>(y);
+    for (int x = 0; x < linearization.weight.cols; x += stride_px)
+    {
+      if (weight[x] > textured)
+      {
+        disagreements.push_back(std::abs(disagreement[x]));
+      }
+    }
+  }
+  if (disagreements.empty())
+  {
+    return 1.0F;
+  }
+  const auto middle = disagreements.begin() + static_cast<std::ptrdiff_t>(disagreements.size() / 2);
+  std::nth_element(disagreements.begin(), middle, disagreements.end());
+  const float explained = EXPLAINED_DISAGREEMENT_PX * EXPLAINED_DISAGREEMENT_PX *
+                          (1.0F + EXPLAINED_PER_VARIANCE * value_variance);
+  return std::clamp(explained / std::max(*middle * *middle, TINY_SQUARE), LEAST_BELIEVED, 1.0F);
 }
 
 }  // namespace
@@ -78,7 +123,9 @@ void MapRefinement::linearize(const RefinementInput& input, const LinearizationS
   const StageTimer timer(context, "linearize");
   linearizer_.run(input.views, disparity, noise_.local_slope_variance, settings, context.pool,
                   linearization_);
-  discount_.apply(discount, context.pool, linearization_);
+  NoiseDiscountSettings limited = discount;
+  limited.max_weight *= believed(linearization_, noise_.value_variance);
+  discount_.apply(limited, context.pool, linearization_);
 }
 
 }  // namespace light_field_depth::multiview
