@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/cloud/batch_fusion.h"
+#include "core/cloud/cloud_kernels.h"
 #include "core/cloud/surface_fusion.h"
 #include "core/cloud/surface_map.h"
 #include "core/cloud/unprojection.h"
@@ -16,100 +17,80 @@ namespace light_field_depth
 {
 namespace
 {
-/// The direction of a plane of disparities: n . (X - C) = f B for all its points.
-/// @param absolute d + d_inf at the pixel
-class NormalOfSlope
-{
-public:
-  NormalOfSlope(const View& view, const Calibration& calibration)
-      : focal_length_px_(static_cast<float>(calibration.focal_length_px)),
-        principal_point_px_(cloud::cameraOf(view, calibration).principal_point_px)
-  {
-  }
-
-  void set(int x, int y, float absolute, float slope_x, float slope_y, DensePoint& point) const
-  {
-    // 1 / Z is linear in the pixel: f B / Z = absolute + slope . (p - p0). With p = c + f X / Z this is a
-    // plane.
-    const float at_centre = absolute - slope_x * (static_cast<float>(x) - principal_point_px_.x) -
-                            slope_y * (static_cast<float>(y) - principal_point_px_.y);
-    const float normal_x = focal_length_px_ * slope_x;
-    const float normal_y = focal_length_px_ * slope_y;
-    const float scale = -1.0F / std::sqrt(normal_x * normal_x + normal_y * normal_y + at_centre * at_centre);
-    point.normal_x = scale * normal_x;
-    point.normal_y = scale * normal_y;
-    point.normal_z = scale * at_centre;
-  }
-
-private:
-  float focal_length_px_;
-  cv::Point2f principal_point_px_;
-};
-
 /// Points of one view, in single precision: a point is as exact as a float of metres.
 class ViewPoints
 {
 public:
   ViewPoints(const View& view, const Calibration& calibration)
-      : image_(view.image), normal_(view, calibration),
-        offset_px_(static_cast<float>(calibration.disparity_offset_px)),
-        focal_times_baseline_(static_cast<float>(calibration.focal_length_px * calibration.baseline_m)),
-        ray_step_(static_cast<float>(1.0 / calibration.focal_length_px))
+      : image_(view.image), scratch_(SCRATCH_ROWS * static_cast<std::size_t>(view.image.cols))
   {
     const cloud::ViewCamera camera = cloud::cameraOf(view, calibration);
-    principal_point_px_ = camera.principal_point_px;
-    centre_m_ = camera.centre_m;
+    principal_y_px_ = static_cast<float>(camera.principal_point_px.y);
+    centre_y_m_ = static_cast<float>(camera.centre_m.y);
+    row_.width = view.image.cols;
+    row_.offset_px = static_cast<float>(calibration.disparity_offset_px);
+    row_.focal_length_px = static_cast<float>(calibration.focal_length_px);
+    row_.focal_times_baseline = static_cast<float>(calibration.focal_length_px * calibration.baseline_m);
+    row_.principal_x_px = static_cast<float>(camera.principal_point_px.x);
+    row_.centre_x_m = static_cast<float>(camera.centre_m.x);
+    float* next = scratch_.data();
+    for (float** const row : {&row_.x, &row_.z, &row_.normal_x, &row_.normal_y, &row_.normal_z})
+    {
+      *row = next;
+      next += row_.width;
+    }
   }
 
   /// Appends the points of a row. @return the end of what was written
-  DensePoint* write(const cloud::FusedView& fused, int y, DensePoint* point) const
+  DensePoint* write(const cloud::FusedView& fused, int y, DensePoint* point)
   {
-    const auto* const disparity = fused.disparity.ptr<float>(y);
+    row_.disparity = fused.disparity.ptr<float>(y);
+    row_.slope_x = fused.slope_x.ptr<float>(y);
+    row_.slope_y = fused.slope_y.ptr<float>(y);
+    row_.row_px = static_cast<float>(y) - principal_y_px_;
+    cloud::unprojectRow(row_);
     const auto* const confidence = fused.confidence.ptr<float>(y);
-    const auto* const slope_x = fused.slope_x.ptr<float>(y);
-    const auto* const slope_y = fused.slope_y.ptr<float>(y);
     const auto* const votes = fused.votes.ptr<std::uint8_t>(y);
     const auto* pixel = image_.ptr<std::uint8_t>(y);
     const int channels = image_.channels();
     const int green = channels == 3 ? 1 : 0;
     const int red = channels == 3 ? 2 : 0;
-    const float ray_y = (static_cast<float>(y) - principal_point_px_.y) * ray_step_;
-    for (int x = 0; x < fused.disparity.cols; ++x, pixel += channels)
+    const float ray_y = row_.row_px * (1.0F / row_.focal_length_px);
+    for (int x = 0; x < row_.width; ++x, pixel += channels)
     {
-      const float absolute = disparity[x] + offset_px_;
-      const float z = focal_times_baseline_ / absolute;
-      if (!(absolute > 0.0F && z <= std::numeric_limits<float>::max()))
+      const float z = row_.z[x];
+      if (z > 0.0F)
       {
-        continue;
+        *point++ = {row_.x[x],
+                    centre_y_m_ + ray_y * z,
+                    z,
+                    row_.normal_x[x],
+                    row_.normal_y[x],
+                    row_.normal_z[x],
+                    pixel[red],
+                    pixel[green],
+                    pixel[0],
+                    votes[x],
+                    confidence[x]};
       }
-      point->x = centre_m_.x + (static_cast<float>(x) - principal_point_px_.x) * ray_step_ * z;
-      point->y = centre_m_.y + ray_y * z;
-      point->z = z;
-      normal_.set(x, y, absolute, slope_x[x], slope_y[x], *point);
-      point->confidence = confidence[x];
-      point->b = pixel[0];
-      point->g = pixel[green];
-      point->r = pixel[red];
-      point->views = votes[x];
-      ++point;
     }
     return point;
   }
 
 private:
+  static constexpr std::size_t SCRATCH_ROWS = 5;
+
   const cv::Mat& image_;
-  NormalOfSlope normal_;
-  cv::Point2f principal_point_px_;
-  cv::Point2f centre_m_;
-  float offset_px_;
-  float focal_times_baseline_;
-  float ray_step_;
+  std::vector<float> scratch_;
+  cloud::UnprojectedRow row_;
+  float principal_y_px_ = 0.0F;
+  float centre_y_m_ = 0.0F;
 };
 
 void unproject(const cloud::FusedView& fused, const View& view, const Calibration& calibration,
                std::vector<DensePoint>& points)
 {
-  const ViewPoints view_points(view, calibration);
+  ViewPoints view_points(view, calibration);
   points.resize(fused.disparity.total());
   DensePoint* point = points.data();
   for (int y = 0; y < fused.disparity.rows; ++y)

@@ -6,11 +6,12 @@
 #include <limits>
 #include <optional>
 
+#include "core/cloud/cloud_kernels.h"
+
 namespace light_field_depth::cloud
 {
 namespace
 {
-constexpr float NaN = std::numeric_limits<float>::quiet_NaN();
 /// Candidates within this part of depth are one surface.
 constexpr float SAME_SURFACE = 0.015F;
 /// A map that shows something this much farther sees through the point.
@@ -78,26 +79,6 @@ Cluster clusterAbout(const Candidate* begin, const Candidate* end, float centre,
   }
   cluster.disparity = centre + cluster.disparity / cluster.weight;
   cluster.confidence /= cluster.weight;
-  return cluster;
-}
-
-/// Where all are one surface, which is nearly everywhere.
-Cluster clusterOfAll(const Candidate* begin, const Candidate* end)
-{
-  Cluster cluster;
-  cluster.heaviest = begin;
-  for (const Candidate* candidate = begin; candidate != end; ++candidate)
-  {
-    cluster.disparity += candidate->weight * (candidate->disparity - begin->disparity);
-    cluster.confidence += candidate->weight * candidate->confidence;
-    cluster.weight += candidate->weight;
-    cluster.members |= 1U << candidate->map;
-    cluster.heaviest = candidate->weight > cluster.heaviest->weight ? candidate : cluster.heaviest;
-  }
-  const float scale = 1.0F / cluster.weight;
-  cluster.disparity = begin->disparity + cluster.disparity * scale;
-  cluster.confidence *= scale;
-  cluster.votes = static_cast<int>(end - begin);
   return cluster;
 }
 
@@ -236,23 +217,6 @@ void createMaps(const cv::Size& size, FusedView& fused)
   fused.by_first.create(size, CV_8UC1);
 }
 
-/// A row of a map that was brought to the view.
-struct WarpedRow
-{
-  const std::int32_t* source;
-  const float* disparity;
-};
-
-/// What a map gives to all rows.
-struct MapValues
-{
-  const float* confidence;
-  const float* slope_x;
-  const float* slope_y;
-  cv::Point2f steps;  ///< from the map's view to this one
-  float nearness;
-};
-
 /// Writes what the candidates of each pixel agree on.
 class ViewFusion
 {
@@ -265,29 +229,38 @@ public:
     for (std::size_t i = 0; i < all_; ++i)
     {
       const cv::Point2f steps = view.steps - maps[i].steps;
-      values_[i] = {maps[i].confidence.ptr<float>(), maps[i].slope_x.ptr<float>(),
-                    maps[i].slope_y.ptr<float>(), steps,
-                    1.0F / (1.0F + WEIGHT_FALL * std::hypot(steps.x, steps.y))};
-      nearest_ = std::max(nearest_, values_[i].nearness);
+      MapOfRow& map = maps_[i];
+      map.confidence = maps[i].confidence.ptr<float>();
+      map.slope_x = maps[i].slope_x.ptr<float>();
+      map.slope_y = maps[i].slope_y.ptr<float>();
+      map.steps_x = steps.x;
+      map.steps_y = steps.y;
+      map.nearness = 1.0F / (1.0F + WEIGHT_FALL * std::hypot(steps.x, steps.y));
+      nearest_ = std::max(nearest_, map.nearness);
       if (steps == cv::Point2f() && !maps[i].held.empty())
       {
         own_ = &maps[i];
         own_index_ = static_cast<std::uint32_t>(i);
       }
     }
+    done_.resize(static_cast<std::size_t>(fused.disparity.cols));
   }
 
   void fuseRow(int y)
   {
-    std::array<WarpedRow, MAX_FUSED_MAPS> rows{};
     for (std::size_t i = 0; i < all_; ++i)
     {
-      rows[i] = {scratch_.warped[i].source.ptr<std::int32_t>(y), scratch_.warped[i].disparity.ptr<float>(y)};
+      maps_[i].source = scratch_.warped[i].source.ptr<std::int32_t>(y);
+      maps_[i].disparity = scratch_.warped[i].disparity.ptr<float>(y);
     }
     setOutput(y);
+    agree();
     for (int x = 0; x < fused_.disparity.cols; ++x)
     {
-      all_ == 1 ? takeOnly(rows[0], x) : fusePixel(rows, x, y);
+      if (done_[static_cast<std::size_t>(x)] == 0)
+      {
+        fusePixel(x, y);
+      }
     }
     if (own_ != nullptr)
     {
@@ -328,33 +301,42 @@ private:
     }
   }
 
-  void takeOnly(const WarpedRow& row, int x)
+  /// What all maps show on one surface, which is nearly everything.
+  void agree()
   {
-    const std::int32_t source = row.source[x];
-    const float confidence = source >= 0 ? values_[0].confidence[source] : -1.0F;
-    disparity_[x] = NaN;
-    if (source >= 0 && confidence >= min_confidence_)
-    {
-      write(x, row.disparity[x], confidence, {row.disparity[x], confidence, 1.0F, source, 0}, 1, 1U);
-    }
+    AgreedRow row;
+    row.maps = maps_.data();
+    row.count = static_cast<int>(all_);
+    row.width = fused_.disparity.cols;
+    row.offset_px = tolerance_.offset_px;
+    row.floor_px = tolerance_.floor_px;
+    row.same_surface = SAME_SURFACE;
+    row.least_weight = LEAST_WEIGHT;
+    row.min_weight =
+        all_ == 1 ? std::numeric_limits<float>::infinity() : MIN_WEIGHT_PER_CONFIDENCE * min_confidence_;
+    row.min_confidence = min_confidence_;
+    row.nearest = nearest_;
+    row.disparity = disparity_;
+    row.confidence = confidence_;
+    row.slope_x = slope_x_;
+    row.slope_y = slope_y_;
+    row.done = done_.data();
+    agreeInRow(row);
+    std::fill_n(votes_, row.width, static_cast<std::uint8_t>(all_));
+    std::fill_n(by_first_, row.width, std::uint8_t{1});
   }
 
-  void fusePixel(const std::array<WarpedRow, MAX_FUSED_MAPS>& rows, int x, int y)
+  void fusePixel(int x, int y)
   {
-    disparity_[x] = NaN;
     Candidate* end = candidates_.data();
-    float lowest = std::numeric_limits<float>::infinity();
-    float highest = -lowest;
     for (std::size_t i = 0; i < all_; ++i)
     {
-      const std::int32_t source = rows[i].source[x];
+      const MapOfRow& map = maps_[i];
+      const std::int32_t source = map.source[x];
       if (source >= 0)
       {
-        const float disparity = rows[i].disparity[x];
-        const float confidence = values_[i].confidence[source];
-        lowest = std::min(lowest, disparity);
-        highest = std::max(highest, disparity);
-        *end++ = {disparity, confidence, (LEAST_WEIGHT + confidence) * values_[i].nearness, source,
+        const float confidence = map.confidence[source];
+        *end++ = {map.disparity[x], confidence, (LEAST_WEIGHT + confidence) * map.nearness, source,
                   static_cast<std::uint32_t>(i)};
       }
     }
@@ -362,9 +344,7 @@ private:
     {
       return;
     }
-    const bool one_surface = highest - lowest <= tolerance_.gap(lowest, SAME_SURFACE);
-    const Cluster cluster = one_surface ? clusterOfAll(candidates_.data(), end)
-                                        : bestCluster(candidates_.data(), end, tolerance_);
+    const Cluster cluster = bestCluster(candidates_.data(), end, tolerance_);
     if (isSupported(x, y, cluster, end) &&
         (cluster.votes == static_cast<int>(all_) || sight_lines_.areBlocked(x, y, cluster)))
     {
@@ -385,7 +365,7 @@ private:
     return heavy || std::any_of(candidates_.data(), end,
                                 [&](const Candidate& candidate)
                                 {
-                                  return values_[candidate.map].nearness >= nearest_ &&
+                                  return maps_[candidate.map].nearness >= nearest_ &&
                                          (cluster.members >> candidate.map & 1U) != 0 &&
                                          candidate.confidence >= min_confidence_;
                                 });
@@ -394,10 +374,10 @@ private:
   void write(int x, float disparity, float confidence, const Candidate& from, int votes,
              std::uint32_t members)
   {
-    const MapValues& map = values_[from.map];
+    const MapOfRow& map = maps_[from.map];
     const float slope_x = map.slope_x[from.source];
     const float slope_y = map.slope_y[from.source];
-    const float squeeze = compression(slope_x, slope_y, map.steps);
+    const float squeeze = compression(slope_x, slope_y, map.steps_x, map.steps_y);
     const float stretch = squeeze > MIN_COMPRESSION ? 1.0F / squeeze : 1.0F;
     disparity_[x] = disparity;
     confidence_[x] = confidence;
@@ -413,11 +393,12 @@ private:
   const FusionScratch& scratch_;
   FusedView& fused_;
   std::size_t all_;
-  std::array<MapValues, MAX_FUSED_MAPS> values_{};
+  std::array<MapOfRow, MAX_FUSED_MAPS> maps_{};
   float nearest_ = 0.0F;             ///< the greatest nearness
   const SurfaceMap* own_ = nullptr;  ///< of this very view, if planes hold some of it
   std::uint32_t own_index_ = 0;
   std::array<Candidate, MAX_FUSED_MAPS> candidates_{};
+  std::vector<std::uint8_t> done_;  ///< of a row: where nothing is left to decide
   // Of the row.
   float* disparity_ = nullptr;
   float* confidence_ = nullptr;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/cloud/cloud_kernels.h"
+
 namespace light_field_depth::cloud
 {
 namespace
@@ -63,38 +65,38 @@ void warpSurface(const SurfaceMap& map, const View& view, const Tolerance& toler
   warped.source.setTo(WarpedSurface::NOTHING_HERE);
   const cv::Point2f steps = view.steps - map.steps;
   const cv::Point2f offset = view.offset_px - map.offset_px;
-  const auto columns = static_cast<float>(size.width);
-  const auto rows = static_cast<float>(size.height);
+  warped.row_target.create(1, size.width, CV_32SC1);
+  warped.row_there.create(1, size.width, CV_32FC1);
+  warped.row_distance.create(1, size.width, CV_32FC1);
+  ProjectedRow row;
+  row.width = size.width;
+  row.height = size.height;
+  row.begin_x = offset.x + 0.5F;  // half a pixel more: the conversion to an integer then rounds
+  row.steps_x = steps.x;
+  row.steps_y = steps.y;
+  row.target = warped.row_target.ptr<std::int32_t>();
+  row.there = warped.row_there.ptr<float>();
+  row.distance = warped.row_distance.ptr<float>();
   auto* const to_disparity = warped.disparity.ptr<float>();
   auto* const to_source = warped.source.ptr<std::int32_t>();
   auto* const to_distance = warped.distance.ptr<float>();
   for (int y = 0; y < size.height; ++y)
   {
-    const auto* const disparity = map.disparity.ptr<float>(y);
-    const auto* const confidence = map.confidence.ptr<float>(y);
-    const auto* const slope_x = map.slope_x.ptr<float>(y);
-    const auto* const slope_y = map.slope_y.ptr<float>(y);
-    const float base_y = static_cast<float>(y) + offset.y + 0.5F;
-    const float base_x = offset.x + 0.5F;
+    row.disparity = map.disparity.ptr<float>(y);
+    row.confidence = map.confidence.ptr<float>(y);
+    row.slope_x = map.slope_x.ptr<float>(y);
+    row.slope_y = map.slope_y.ptr<float>(y);
+    row.begin_y = static_cast<float>(y) + offset.y + 0.5F;
+    projectRow(row);
     for (int x = 0; x < size.width; ++x)
     {
-      const float d = disparity[x];
-      // Half a pixel is added: the conversion to an integer then rounds.
-      const float at_x = static_cast<float>(x) + base_x - d * steps.x;
-      const float at_y = base_y - d * steps.y;
-      if (!(confidence[x] >= 0.0F && at_x >= 0.0F && at_x < columns && at_y >= 0.0F && at_y < rows))
+      const std::int32_t target = row.target[x];
+      if (target < 0)
       {
         continue;
       }
-      const int column = static_cast<int>(at_x);
-      const int row = static_cast<int>(at_y);
-      const float gap_x = static_cast<float>(column) + 0.5F - at_x;
-      const float gap_y = static_cast<float>(row) + 0.5F - at_y;
-      const float squeeze = compression(slope_x[x], slope_y[x], steps);
-      const float rise = gap_x * slope_x[x] + gap_y * slope_y[x];
-      const float there = squeeze > MIN_COMPRESSION ? d + rise / squeeze : d;
-      const float distance = gap_x * gap_x + gap_y * gap_y;
-      const int target = row * size.width + column;
+      const float there = row.there[x];
+      const float distance = row.distance[x];
       if (to_source[target] >= 0)
       {
         const float ahead = there - to_disparity[target];

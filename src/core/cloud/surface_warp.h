@@ -13,9 +13,12 @@ namespace light_field_depth::cloud
 /// A map as another view sees it.
 struct WarpedSurface
 {
-  cv::Mat disparity;  ///< CV_32FC1, resampled to the pixel's centre along the surface's plane
-  cv::Mat source;     ///< CV_32SC1, index of the map's pixel; NOTHING_HERE where the map shows nothing
-  cv::Mat distance;   ///< CV_32FC1, squared, from the pixel's centre to where the map's pixel falls
+  cv::Mat disparity;     ///< CV_32FC1, resampled to the pixel's centre along the surface's plane
+  cv::Mat source;        ///< CV_32SC1, index of the map's pixel; NOTHING_HERE where the map shows nothing
+  cv::Mat distance;      ///< CV_32FC1, squared, from the pixel's centre to where the map's pixel falls
+  cv::Mat row_target;    ///< scratch: CV_32SC1, of a row of the map on its way (ProjectedRow)
+  cv::Mat row_there;     ///< CV_32FC1, likewise
+  cv::Mat row_distance;  ///< likewise
 
   static constexpr std::int32_t NOTHING_HERE = -1;
 };
@@ -24,16 +27,6 @@ struct WarpedSurface
 /// one surface the pixel that falls nearest to the centre. Single gaps inside a surface are closed.
 /// @param warped memory that it brings is used again
 void warpSurface(const SurfaceMap& map, const View& view, const Tolerance& tolerance, WarpedSurface& warped);
-
-/// How much the plane of a slope is compressed on the way to a view `steps` away: 1 on a frontal one, 0 and
-/// below where the view sees its edge or its back.
-inline float compression(float slope_x, float slope_y, const cv::Point2f& steps)
-{
-  return 1.0F - slope_x * steps.x - slope_y * steps.y;
-}
-
-/// Below this a plane is seen so obliquely that its slope says nothing any more.
-constexpr float MIN_COMPRESSION = 0.1F;
 
 }  // namespace light_field_depth::cloud
 
