@@ -344,12 +344,14 @@ FrameProducts DepthNode::Implementation::compute(const LightField& light_field, 
         products.points2 = cloud;
         return points;
       });
-  request.dense_cloud = (everything || subscribers.points_dense) && settings.dense_cloud;
+  const bool dense_cloud_due =
+      subscribers.points_dense && dense_cloud_rate_.isDue(header.stamp, settings.dense_cloud_max_rate_hz);
+  request.dense_cloud = (everything || dense_cloud_due) && settings.dense_cloud;
   const std::size_t most_points =
       light_field.views.size() * static_cast<std::size_t>(light_field.size().area());
   const std::size_t every_nth =
       settings.pipeline.dense_cloud.voxel_size_m > 0.0F ? 1 : thinningOfDenseCloud(most_points);
-  if (request.dense_cloud && subscribers.points_dense && light_field.calibration)
+  if (request.dense_cloud && dense_cloud_due && light_field.calibration)
   {
     products.points_dense = dense_clouds_.take();
     beginDenseCloud(header, *products.points_dense);

@@ -31,6 +31,7 @@
 #include "ros/message_pool.h"
 #include "ros/node_diagnostics.h"
 #include "ros/node_parameters.h"
+#include "ros/rate_limit.h"
 #include "ros/result_publisher.h"
 #include "ros/result_watch.h"
 #include "ros/settings.h"
@@ -102,6 +103,7 @@ private:
   ResultWatch result_watch_;       ///< used by the worker alone
   MessagePool<sensor_msgs::PointCloud2> organized_clouds_;
   MessagePool<sensor_msgs::PointCloud2> dense_clouds_;
+  RateLimit dense_cloud_rate_;  ///< used by the worker alone
 
   std::mutex subscription_mutex_;  ///< guards results_ while it is made, and who is subscribed to what
   bool subscribed_ = false;

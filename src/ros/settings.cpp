@@ -99,6 +99,7 @@ NodeSettings settingsFrom(const LightFieldDepthConfig& config)
 {
   NodeSettings settings;
   settings.dense_cloud = config.dense_cloud;
+  settings.dense_cloud_max_rate_hz = config.dense_cloud_max_rate_hz;
   PipelineOptions& pipeline = settings.pipeline;
   visitOptions(pipeline,
                [&config](const std::string& name, auto& field)

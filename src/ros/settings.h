@@ -21,6 +21,8 @@ struct NodeSettings
 {
   PipelineOptions pipeline;
   bool dense_cloud = true;  ///< false: points_dense stays silent whoever listens
+  /// Most clouds a second on points_dense; 0: one for every set. Others wait for a cloud less often.
+  double dense_cloud_max_rate_hz = 0.0;
 };
 
 /// @throw InputError with a sentence for each field that cannot be used

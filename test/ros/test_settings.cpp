@@ -70,6 +70,7 @@ TEST(Settings, OfTheParameterServerHaveTheDefaultsOfTheOptions)
   }
   EXPECT_EQ(defaults().disparity_range_auto, !PipelineOptions().disparity_range.has_value());
   EXPECT_EQ(defaults().dense_cloud, NodeSettings().dense_cloud);
+  EXPECT_EQ(defaults().dense_cloud_max_rate_hz, NodeSettings().dense_cloud_max_rate_hz);
 }
 
 TEST(Settings, ReachTheOptionsByTheirNames)
@@ -80,12 +81,14 @@ TEST(Settings, ReachTheOptionsByTheirNames)
   config.min_confidence = 0.25;
   config.dense_cloud_voxel_size_m = 0.5;
   config.dense_cloud = false;
+  config.dense_cloud_max_rate_hz = 2.0;
   const NodeSettings settings = settingsFrom(config);
   EXPECT_EQ(settings.pipeline.method, Method::Multiview);
   EXPECT_EQ(settings.pipeline.views, ViewSelection::Star);
   EXPECT_FLOAT_EQ(settings.pipeline.min_confidence, 0.25F);
   EXPECT_FLOAT_EQ(settings.pipeline.dense_cloud.voxel_size_m, 0.5F);
   EXPECT_FALSE(settings.dense_cloud);
+  EXPECT_EQ(settings.dense_cloud_max_rate_hz, 2.0);
 }
 
 TEST(Settings, TakeADisparityRangeOnlyWhenItIsNotToBeFound)
