@@ -182,7 +182,7 @@ ros::Time ArrayFixture::nextStamp()
 
 bool ArrayFixture::publishUntil(ArrayPublisher& array, const std::function<bool()>& condition)
 {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto end = std::chrono::steady_clock::now() + SLOWNESS * std::chrono::seconds(20);
   while (std::chrono::steady_clock::now() < end)
   {
     array.publish(nextStamp());
