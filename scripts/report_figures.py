@@ -63,7 +63,14 @@ def name_points(axis, points):
         lowest = -np.inf
         for name, x, y, colour, at_x, at_y in sorted((p for p in placed if (p[4] < middle) == on_left), key=lambda p: p[5]):
             lowest = max(lowest + 1.35 * LABEL_POINTS * pixels_per_point, at_y)
-            axis.annotate(name, (x, y), xytext=(7 if on_left else -7, (lowest - at_y) / pixels_per_point),
+            # Beyond the points that the name would cover.
+            away = 1 if on_left else -1
+            begin = at_x
+            for other in sorted((p[4] for p in placed if abs(p[5] - lowest) < LABEL_POINTS * pixels_per_point),
+                                key=lambda at: away * at):
+                if 0 < away * (other - begin) < (len(name) * 0.6 * LABEL_POINTS + 14) * pixels_per_point:
+                    begin = other
+            axis.annotate(name, (x, y), xytext=((begin - at_x) / pixels_per_point + 7 * away, (lowest - at_y) / pixels_per_point),
                           textcoords='offset points', ha='left' if on_left else 'right', va='center', fontsize=LABEL_POINTS,
                           color=colour)
 

@@ -14,10 +14,12 @@ h1 { font-size: 1.5em } h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1
 figure { margin: 1em 0 } figcaption { color: #333; margin-top: 4px }
 .wide { overflow-x: auto }
 .wide img { display: block; max-width: 100%; height: auto }
+@media (max-width: 900px) { .wide img { max-width: none } }
 table { border-collapse: collapse; font-size: 90% } td, th { border: 1px solid #bbb; padding: 3px 8px; text-align: left }
 td.number { text-align: right; font-variant-numeric: tabular-nums }
 """
-# Dots per inch: figures of 11 inches fill the page; where it is narrower they shrink with it, and tables scroll.
+# Dots per inch: figures of 11 inches fill the page. On narrower ones they shrink with it as long as their words can be read;
+# then they scroll, as tables do.
 DPI = 110
 
 
