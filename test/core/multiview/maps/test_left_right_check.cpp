@@ -185,8 +185,8 @@ TEST(BackgroundFill, TakesTheMedianOfWhatHasTheSameColour)
     before.at<float>(at) = std::min(map.at<float>(left), right);
   }
   BackgroundFillSettings coarse;
-  coarse.radius_px = 9;
-  coarse.stride_px = 3;
+  coarse.radius_px = 8;
+  coarse.stride_px = 4;
   ThreadPool pool(2);
   for (const BackgroundFillSettings& settings : {BackgroundFillSettings(), coarse})
   {
