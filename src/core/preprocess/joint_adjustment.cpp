@@ -16,7 +16,7 @@ namespace
 /// Shift along x and y, roll, zoom.
 constexpr int PER_VIEW = 4;
 /// Of one task. Set by hand: sums over points are in this order whatever the number of threads.
-constexpr int POINTS_PER_CHUNK = 256;
+constexpr int POINTS_PER_CHUNK = 64;
 /// No step changes a disparity by more, in pixels of the farthest view.
 constexpr float MAX_MOTION_PX = 1.0F;
 /// Of Gauss and Newton, for one disparity.

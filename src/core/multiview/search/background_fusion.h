@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_SEARCH_BACKGROUND_FUSION_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_MULTIVIEW_SEARCH_BACKGROUND_FUSION_H
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -45,11 +46,15 @@ private:
                    CostVolume& volume) const;
   bool markFarther(const cv::Mat& background, ThreadPool& pool, const cv::Mat& disparity);
   template <class Body>
-  void forFarther(const Body& body) const;
+  void forFarther(const cv::Range& rows, const Body& body) const;
   bool isRowMarked(int y) const { return marked_rows_[static_cast<std::size_t>(y)] != 0; }
-  void addData(const CostVolume& volume, const cv::Mat& background, std::vector<Region>& regions) const;
+  std::vector<Region> addRegions(const CostVolume& volume, const PathAggregator& paths,
+                                 const PathSettings& settings, const cv::Mat& background, std::size_t count,
+                                 ThreadPool& pool) const;
+  void addData(const CostVolume& volume, const cv::Mat& background, const cv::Range& rows,
+               std::vector<Region>& regions) const;
   void addLinks(const PathAggregator& paths, const PathSettings& settings, const cv::Mat& background,
-                std::vector<Region>& regions) const;
+                const cv::Range& rows, std::vector<Region>& regions) const;
   std::size_t regionAt(int x, int y) const { return static_cast<std::size_t>(regions_.at<int>(y, x)); }
   float biasAt(int x, int y, float label) const;
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -13,6 +15,9 @@ namespace
 {
 /// Rows of one task. Set by hand: enough tasks for every thread; results do not depend on it.
 constexpr int ROWS_PER_CHUNK = 16;
+/// The same of one sum of energies, which is of as many numbers as there are regions. What is summed does
+/// depend on it, by rounding.
+constexpr int ROWS_PER_SUM = 32;
 /// Smaller differences of the two searches are left alone. With twice as much, more of the blank wall of
 /// array/dolls stays at what stands before it.
 constexpr float MIN_DROP_PX = 0.08F;
@@ -51,6 +56,11 @@ struct Energy
   double links = 0.0;
 
   double total() const { return data + links; }
+  void add(const Energy& other)
+  {
+    data += other.data;
+    links += other.links;
+  }
 };
 
 }  // namespace
@@ -70,6 +80,13 @@ struct BackgroundFusion::Region
   Energy kept;
   Energy moved;
 
+  void add(const Region& other)
+  {
+    pixels += other.pixels;
+    kept.add(other.kept);
+    moved.add(other.moved);
+  }
+
   /// Texture that speaks against the move shows in the data alone, however smooth the result would be.
   bool accepted() const
   {
@@ -88,19 +105,47 @@ void BackgroundFusion::fuse(const CostVolume& volume, const PathAggregator& path
     return;
   }
   const int count = cv::connectedComponents(farther_, regions_, 4, CV_32S);
-  std::vector<Region> regions(static_cast<std::size_t>(count));
-  addData(volume, background, regions);
-  addLinks(paths, path_settings, background, regions);
-  forFarther(
-      [&](int x, int y)
-      {
-        if (regions[regionAt(x, y)].accepted())
-        {
-          disparity.at<float>(y, x) = background.at<float>(y, x);
-          const int label = cvRound(labels_.label(background.at<float>(y, x)));
-          moved_.at<std::int16_t>(y, x) = static_cast<std::int16_t>(std::max(0, label));
-        }
-      });
+  const std::vector<Region> regions =
+      addRegions(volume, paths, path_settings, background, static_cast<std::size_t>(count), pool);
+  const auto move = [&](int x, int y)
+  {
+    if (regions[regionAt(x, y)].accepted())
+    {
+      disparity.at<float>(y, x) = background.at<float>(y, x);
+      const int label = cvRound(labels_.label(background.at<float>(y, x)));
+      moved_.at<std::int16_t>(y, x) = static_cast<std::int16_t>(std::max(0, label));
+    }
+  };
+  pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
+                   [&](int first, int last) {
+                     forFarther({first, last}, move);
+                   });
+}
+
+/// Chunks of rows are added up each for itself, then in their order.
+std::vector<BackgroundFusion::Region> BackgroundFusion::addRegions(const CostVolume& volume,
+                                                                   const PathAggregator& paths,
+                                                                   const PathSettings& settings,
+                                                                   const cv::Mat& background,
+                                                                   std::size_t count, ThreadPool& pool) const
+{
+  const int chunks = (farther_.rows + ROWS_PER_SUM - 1) / ROWS_PER_SUM;
+  std::vector<std::vector<Region>> parts(static_cast<std::size_t>(chunks), std::vector<Region>(count));
+  pool.parallelFor(0, farther_.rows, ROWS_PER_SUM,
+                   [&](int first, int last)
+                   {
+                     std::vector<Region>& part = parts[static_cast<std::size_t>(first / ROWS_PER_SUM)];
+                     addData(volume, background, {first, last}, part);
+                     addLinks(paths, settings, background, {first, last}, part);
+                   });
+  for (std::size_t chunk = 1; chunk < parts.size(); ++chunk)
+  {
+    for (std::size_t region = 0; region < count; ++region)
+    {
+      parts[0][region].add(parts[chunk][region]);
+    }
+  }
+  return parts.front();
 }
 
 /// Where the second search is farther.
@@ -130,9 +175,9 @@ bool BackgroundFusion::markFarther(const cv::Mat& background, ThreadPool& pool, 
 
 /// Calls body(x, y) for the pixels in regions, row by row. They are few.
 template <class Body>
-void BackgroundFusion::forFarther(const Body& body) const
+void BackgroundFusion::forFarther(const cv::Range& rows, const Body& body) const
 {
-  for (int y = 0; y < farther_.rows; ++y)
+  for (int y = rows.start; y < rows.end; ++y)
   {
     const auto* const farther = farther_.ptr<std::uint8_t>(y);
     for (int begin = 0; begin < farther_.cols && isRowMarked(y); begin += RUN_PX)
@@ -149,23 +194,24 @@ void BackgroundFusion::forFarther(const Body& body) const
   }
 }
 
-void BackgroundFusion::addData(const CostVolume& volume, const cv::Mat& background,
+void BackgroundFusion::addData(const CostVolume& volume, const cv::Mat& background, const cv::Range& rows,
                                std::vector<Region>& regions) const
 {
-  forFarther(
-      [&](int x, int y)
-      {
-        Region& region = regions[regionAt(x, y)];
-        const float label = labels_.label(background.at<float>(y, x));
-        ++region.pixels;
-        region.kept.data += data_cost_.at<float>(y, x);
-        region.moved.data += interpolatedCost(volume, x, y, label) - biasAt(x, y, label);
-      });
+  forFarther(rows,
+             [&](int x, int y)
+             {
+               Region& region = regions[regionAt(x, y)];
+               const float label = labels_.label(background.at<float>(y, x));
+               ++region.pixels;
+               region.kept.data += data_cost_.at<float>(y, x);
+               region.moved.data += interpolatedCost(volume, x, y, label) - biasAt(x, y, label);
+             });
 }
 
 /// The links between neighbours of which at least one lies in a region.
 void BackgroundFusion::addLinks(const PathAggregator& paths, const PathSettings& settings,
-                                const cv::Mat& background, std::vector<Region>& regions) const
+                                const cv::Mat& background, const cv::Range& rows,
+                                std::vector<Region>& regions) const
 {
   const auto moved_label = [&](int x, int y)
   { return regionAt(x, y) != 0 ? labels_.label(background.at<float>(y, x)) : label_.at<float>(y, x); };
@@ -192,7 +238,7 @@ void BackgroundFusion::addLinks(const PathAggregator& paths, const PathSettings&
       add(x, y, x, y - 1, paths.stepAbove(x, y));
     }
   };
-  for (int y = 0; y < label_.rows; ++y)
+  for (int y = rows.start; y < rows.end; ++y)
   {
     const int above = std::max(y - 1, 0);
     for (int begin = 0; begin < label_.cols && (isRowMarked(y) || isRowMarked(above)); begin += RUN_PX)
