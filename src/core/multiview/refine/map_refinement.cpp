@@ -16,7 +16,6 @@ constexpr float REACH_PX = 1.0F;
 /// to 0.005, plenoptic captures 0.005 to 0.008, arrays 0.018. Noise of the values explains more of it. Twice
 /// as little helps captures and costs noisy renders; docs/experiments.md.
 constexpr float EXPLAINED_DISAGREEMENT_PX = 0.003F;
-constexpr float EXPLAINED_PER_VARIANCE = 0.75F;
 /// With a tenth soft edges, as cameras see them, are off by 0.07 px on 15 instead of 12 % of the pixels, with
 /// a quarter the demo's cloud of five maps has 0.12 instead of 0.07 % of flying points.
 constexpr float LEAST_BELIEVED = 0.5F;
@@ -50,10 +49,11 @@ void keepInRange(const DisparityRange& range, const cv::Mat& start, ThreadPool& 
 /// The part of the most that a pixel may weigh, from how far rows and columns place well-textured pixels
 /// apart. What they get wrong for themselves, by their sampling, demosaicing or places, no window averages
 /// away.
-float believed(const Linearization& linearization, float value_variance)
+/// @param growth of what is explained, by noise of the values
+float believed(const Linearization& linearization, float growth)
 {
   constexpr int stride_px = 4;
-  constexpr float textured = 20.0F;  // curvature a pixel, as of SlopeSettings::full_weight
+  const float textured = SlopeSettings().full_weight;
   std::vector<float> disagreements;
   for (int y = 0; y < linearization.weight.rows; y += stride_px)
   {
@@ -73,8 +73,7 @@ float believed(const Linearization& linearization, float value_variance)
   }
   const auto middle = disagreements.begin() + static_cast<std::ptrdiff_t>(disagreements.size() / 2);
   std::nth_element(disagreements.begin(), middle, disagreements.end());
-  const float explained = EXPLAINED_DISAGREEMENT_PX * EXPLAINED_DISAGREEMENT_PX *
-                          (1.0F + EXPLAINED_PER_VARIANCE * value_variance);
+  const float explained = EXPLAINED_DISAGREEMENT_PX * EXPLAINED_DISAGREEMENT_PX * growth;
   return std::clamp(explained / std::max(*middle * *middle, TINY_SQUARE), LEAST_BELIEVED, 1.0F);
 }
 
@@ -88,13 +87,13 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
     const StageTimer timer(context, "noise");
     measureViewNoise(input.views, disparity, context.pool, noise_);
   }
+  const float more = 1.0F + settings.strength_per_variance * noise_.value_variance;
   if (settings.refinements == 0)
   {
-    linearize(input, settings.linearization, settings.noise_discount, context, disparity);
+    linearize(input, settings.linearization, settings.noise_discount, more, context, disparity);
     return;
   }
   SmoothingSettings smoothing = settings.smoothing;
-  const float more = 1.0F + settings.strength_per_variance * noise_.value_variance;
   smoothing.strength *= more;
   NoiseDiscountSettings discount = settings.noise_discount;
   discount.max_weight *= more;
@@ -108,7 +107,7 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
     LinearizationSettings linearization = settings.linearization;
     linearization.one_channel =
         i == 1 && !is_last && noise_.value_variance <= settings.one_channel_max_variance;
-    linearize(input, linearization, discount, context, disparity);
+    linearize(input, linearization, discount, more, context, disparity);
     const StageTimer timer(context, "smooth");
     smoothing.follow_slopes = is_last;
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity);
@@ -117,14 +116,14 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
 }
 
 void MapRefinement::linearize(const RefinementInput& input, const LinearizationSettings& settings,
-                              const NoiseDiscountSettings& discount, RunContext& context,
+                              const NoiseDiscountSettings& discount, float growth, RunContext& context,
                               const cv::Mat& disparity)
 {
   const StageTimer timer(context, "linearize");
   linearizer_.run(input.views, disparity, noise_.local_slope_variance, settings, context.pool,
                   linearization_);
   NoiseDiscountSettings limited = discount;
-  limited.max_weight *= believed(linearization_, noise_.value_variance);
+  limited.max_weight *= believed(linearization_, growth);
   discount_.apply(limited, context.pool, linearization_);
 }
 

@@ -23,7 +23,8 @@ struct RefinementSettings
   LinearizationSettings linearization;
   NoiseDiscountSettings noise_discount;
   SmoothingSettings smoothing;
-  /// Links strengthen by this part for each squared grey level of noise that the views are left with.
+  /// Links strengthen by this part for each squared grey level of noise that the views are left with, and so
+  /// do the most that a pixel weighs and the disagreement of rows and columns that noise explains.
   float strength_per_variance = 0.75F;
 };
 
@@ -51,7 +52,8 @@ public:
 
 private:
   void linearize(const RefinementInput& input, const LinearizationSettings& settings,
-                 const NoiseDiscountSettings& discount, RunContext& context, const cv::Mat& disparity);
+                 const NoiseDiscountSettings& discount, float growth, RunContext& context,
+                 const cv::Mat& disparity);
 
   Linearizer linearizer_;
   Linearization linearization_;
