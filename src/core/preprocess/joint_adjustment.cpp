@@ -49,20 +49,6 @@ cv::Mat withSlopes(const cv::Mat& grey)
   return result;
 }
 
-std::vector<cv::Mat> slopedViews(const LightField& light_field, ThreadPool& pool)
-{
-  std::vector<cv::Mat> images(light_field.views.size());
-  pool.parallelFor(0, static_cast<int>(images.size()), 1,
-                   [&](int first, int last)
-                   {
-                     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-                     {
-                       images[i] = withSlopes(light_field.views[i].image);
-                     }
-                   });
-  return images;
-}
-
 /// Upper triangle of H and the right side, of H x = -b.
 struct Equations
 {
@@ -92,27 +78,25 @@ struct PointView
 class Adjuster
 {
 public:
-  /// @param images slopedViews()
-  Adjuster(const LightField& light_field, const std::vector<cv::Mat>& images, double expected_px,
-           ThreadPool& pool, Adjustment& adjustment)
-      : field_(light_field), pool_(pool), adjustment_(adjustment), images_(images),
-        middle_(0.5F * static_cast<float>(light_field.size().width - 1),
-                0.5F * static_cast<float>(light_field.size().height - 1)),
-        radius_(0.5F * std::hypot(static_cast<float>(light_field.size().width),
-                                  static_cast<float>(light_field.size().height))),
+  Adjuster(const SlopedViews& views, double expected_px, ThreadPool& pool, Adjustment& adjustment)
+      : field_(views.light_field), pool_(pool), adjustment_(adjustment), images_(views.images),
+        middle_(0.5F * static_cast<float>(field_.size().width - 1),
+                0.5F * static_cast<float>(field_.size().height - 1)),
+        radius_(0.5F * std::hypot(static_cast<float>(field_.size().width),
+                                  static_cast<float>(field_.size().height))),
         expected_px_(static_cast<float>(expected_px))
   {
-    for (std::size_t i = 0; i < light_field.views.size(); ++i)
+    for (std::size_t i = 0; i < field_.views.size(); ++i)
     {
-      if (i != light_field.reference_index)
+      if (i != field_.reference_index)
       {
         others_.push_back(i);
-        widest_ = std::max(widest_, static_cast<float>(std::hypot(light_field.views[i].steps.x,
-                                                                  light_field.views[i].steps.y)));
+        widest_ = std::max(widest_,
+                           static_cast<float>(std::hypot(field_.views[i].steps.x, field_.views[i].steps.y)));
       }
     }
     unknowns_ = PER_VIEW * static_cast<int>(others_.size()) + 1;
-    reference_ = others_.empty() ? cv::Mat() : images_[light_field.reference_index];
+    reference_ = others_.empty() ? cv::Mat() : images_[field_.reference_index];
   }
 
   void step()
@@ -122,16 +106,12 @@ public:
     const int chunks = (count + POINTS_PER_CHUNK - 1) / POINTS_PER_CHUNK;
     std::vector<Equations> parts(static_cast<std::size_t>(chunks), Equations(unknowns_));
     elimination_.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(unknowns_ + 1), 0.0F);
-    pool_.parallelFor(0, chunks, 1,
+    pool_.parallelFor(0, count, POINTS_PER_CHUNK,
                       [&](int first, int last)
                       {
-                        for (int chunk = first; chunk < last; ++chunk)
+                        for (int i = first; i < last; ++i)
                         {
-                          for (int i = chunk * POINTS_PER_CHUNK;
-                               i < std::min((chunk + 1) * POINTS_PER_CHUNK, count); ++i)
-                          {
-                            addPoint(i, scale, parts[static_cast<std::size_t>(chunk)]);
-                          }
+                          addPoint(i, scale, parts[static_cast<std::size_t>(first / POINTS_PER_CHUNK)]);
                         }
                       });
     apply(solve(parts, scale));
@@ -143,17 +123,14 @@ public:
     const std::size_t count = adjustment_.points.size();
     const std::size_t chunks = (count + POINTS_PER_CHUNK - 1) / POINTS_PER_CHUNK;
     std::vector<double> sums(chunks, 0.0);
-    pool_.parallelFor(0, static_cast<int>(chunks), 1,
+    pool_.parallelFor(0, static_cast<int>(count), POINTS_PER_CHUNK,
                       [&](int first, int last)
                       {
-                        for (auto chunk = static_cast<std::size_t>(first);
-                             chunk < static_cast<std::size_t>(last); ++chunk)
+                        double& sum = sums[static_cast<std::size_t>(first / POINTS_PER_CHUNK)];
+                        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last);
+                             ++i)
                         {
-                          for (std::size_t i = chunk * POINTS_PER_CHUNK;
-                               i < std::min((chunk + 1) * POINTS_PER_CHUNK, count); ++i)
-                          {
-                            sums[chunk] += settlePoint(scale, adjustment_.points[i]);
-                          }
+                          sum += settlePoint(scale, adjustment_.points[i]);
                         }
                       });
     return std::accumulate(sums.begin(), sums.end(), 0.0) /
@@ -395,26 +372,37 @@ private:
 
 }  // namespace
 
-void adjustJointly(const LightField& light_field, double expected_px, int steps, ThreadPool& pool,
+SlopedViews::SlopedViews(const LightField& grey, ThreadPool& pool)
+    : light_field(grey), images(grey.views.size())
+{
+  pool.parallelFor(0, static_cast<int>(images.size()), 1,
+                   [&](int first, int last)
+                   {
+                     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+                     {
+                       images[i] = withSlopes(light_field.views[i].image);
+                     }
+                   });
+}
+
+void adjustJointly(const SlopedViews& views, double expected_px, int steps, ThreadPool& pool,
                    Adjustment& adjustment)
 {
-  const std::vector<cv::Mat> images = slopedViews(light_field, pool);
-  Adjuster adjuster(light_field, images, expected_px, pool, adjustment);
+  Adjuster adjuster(views, expected_px, pool, adjustment);
   for (int i = 0; i < steps && !adjustment.points.empty(); ++i)
   {
     adjuster.step();
   }
 }
 
-std::vector<double> compareFits(const LightField& light_field, std::vector<Adjustment> adjustments,
+std::vector<double> compareFits(const SlopedViews& views, std::vector<Adjustment> adjustments,
                                 ThreadPool& pool)
 {
-  const std::vector<cv::Mat> images = slopedViews(light_field, pool);
   std::vector<double> fits;
   float scale = 0.0F;
   for (Adjustment& adjustment : adjustments)
   {
-    Adjuster adjuster(light_field, images, 1.0, pool, adjustment);
+    Adjuster adjuster(views, 1.0, pool, adjustment);
     scale = fits.empty() ? adjuster.differenceScale() : scale;
     fits.push_back(adjuster.settle(scale));
   }

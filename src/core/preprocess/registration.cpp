@@ -193,7 +193,7 @@ Adjustment enlarged(const Adjustment& adjustment, int halvings)
 /// Which of the adjustments holds for points that it was not measured at; a later one has to be clearly
 /// better than those before it.
 /// @param points others than those of the adjustments
-std::size_t clearlyBest(const LightField& grey, const std::vector<AdjustedPoint>& points,
+std::size_t clearlyBest(const SlopedViews& grey, const std::vector<AdjustedPoint>& points,
                         std::vector<Adjustment> adjustments, ThreadPool& pool)
 {
   for (Adjustment& adjustment : adjustments)
@@ -347,12 +347,13 @@ Registration estimateRegistration(const LightField& light_field, const Disparity
   others.points = thinned(tested, TESTED_POINTS);
   const double scale = std::ldexp(1.0, halvings) * options.pixel_size;
   // The start of both at full size: views that stand off their places, and steps of another ratio besides.
+  const SlopedViews small_slopes(small, pool);
   std::array<Adjustment, 2> starts = {adjustment, adjustment};
   starts[0].steps_are_known = true;
-  adjustJointly(small, options.expected_px / scale, FIRST_STEPS, pool, starts[0]);
+  adjustJointly(small_slopes, options.expected_px / scale, FIRST_STEPS, pool, starts[0]);
   starts[1] = starts[0];
   starts[1].steps_are_known = false;
-  adjustJointly(small, options.expected_px / scale, FIRST_STEPS, pool, starts[1]);
+  adjustJointly(small_slopes, options.expected_px / scale, FIRST_STEPS, pool, starts[1]);
   const cv::Size size(static_cast<int>(full.width * options.pixel_size),
                       static_cast<int>(full.height * options.pixel_size));
   const Size first = sizeOf(separated(small, range, starts[1], scale), size, range);
@@ -363,7 +364,8 @@ Registration estimateRegistration(const LightField& light_field, const Disparity
   }
   // From the simplest explanation to the richest: nothing is off; views stand off their places; rows and
   // columns differ by an offset besides; and by a ratio of steps.
-  const LightField grey = greyViews(light_field);
+  const LightField grey_views = greyViews(light_field);
+  const SlopedViews grey(grey_views, pool);
   std::vector<Adjustment> candidates(1, enlarged(others, halvings));
   const std::vector<AdjustedPoint> tested_points = candidates.front().points;
   for (Adjustment& start : starts)

@@ -60,7 +60,7 @@ TEST(JointAdjustment, FindsTheDisparitiesWhereNothingIsOff)
   Adjustment adjustment = startingPoint(scene().light_field);
   EXPECT_GT(rootMeanSquareError(adjustment), 0.12);
   ThreadPool pool(2);
-  adjustJointly(scene().light_field, EXPECTED_PX, 4, pool, adjustment);
+  adjustJointly(SlopedViews(scene().light_field, pool), EXPECTED_PX, 4, pool, adjustment);
   // Samples between pixels are smoother than those at pixels, which moves the minimum by some hundredths.
   EXPECT_LT(rootMeanSquareError(adjustment), 0.05);
   EXPECT_NEAR(adjustment.step_ratio, 1.0, 0.01);
@@ -78,7 +78,7 @@ TEST(JointAdjustment, FindsAViewThatIsShiftedAcrossItsSteps)
   wrong.views[shifted].offset_px.x -= 0.3;
   Adjustment adjustment = startingPoint(wrong);
   ThreadPool pool(2);
-  adjustJointly(wrong, EXPECTED_PX, 5, pool, adjustment);
+  adjustJointly(SlopedViews(wrong, pool), EXPECTED_PX, 5, pool, adjustment);
   EXPECT_NEAR(adjustment.views[shifted].shift_px.x, 0.3, 0.03);
   EXPECT_NEAR(adjustment.views[shifted].shift_px.y, 0.0, 0.05);
   EXPECT_EQ(adjustment.views[wrong.reference_index].shift_px, cv::Point2d());
@@ -93,7 +93,7 @@ TEST(JointAdjustment, FindsUnequalStepsOfRowsAndColumns)
   }
   Adjustment adjustment = startingPoint(wrong);
   ThreadPool pool(2);
-  adjustJointly(wrong, EXPECTED_PX, 6, pool, adjustment);
+  adjustJointly(SlopedViews(wrong, pool), EXPECTED_PX, 6, pool, adjustment);
   EXPECT_NEAR(adjustment.step_ratio, 1.1, 0.02);
 }
 
@@ -108,12 +108,12 @@ TEST(JointAdjustment, PointsTellWhichOfTwoAdjustmentsIsRight)
   Adjustment worse = unaware;
   worse.views[shifted].shift_px.x = -0.5;
   ThreadPool pool(2);
-  const auto corrected = compareFits(wrong, {unaware, right}, pool);
+  const auto corrected = compareFits(SlopedViews(wrong, pool), {unaware, right}, pool);
   EXPECT_LT(corrected[1], 0.8 * corrected[0]);
-  const auto made_worse = compareFits(wrong, {unaware, worse}, pool);
+  const auto made_worse = compareFits(SlopedViews(wrong, pool), {unaware, worse}, pool);
   EXPECT_GT(made_worse[1], 1.1 * made_worse[0]);
   ThreadPool one(1);
-  EXPECT_EQ(compareFits(wrong, {unaware, right}, one), corrected);
+  EXPECT_EQ(compareFits(SlopedViews(wrong, one), {unaware, right}, one), corrected);
 }
 
 TEST(JointAdjustment, WithoutPointsNothingHappens)
@@ -121,7 +121,7 @@ TEST(JointAdjustment, WithoutPointsNothingHappens)
   Adjustment adjustment;
   adjustment.views.resize(scene().light_field.views.size());
   ThreadPool pool(1);
-  adjustJointly(scene().light_field, EXPECTED_PX, 3, pool, adjustment);
+  adjustJointly(SlopedViews(scene().light_field, pool), EXPECTED_PX, 3, pool, adjustment);
   EXPECT_EQ(adjustment.step_ratio, 1.0);
 }
 
@@ -131,8 +131,8 @@ TEST(JointAdjustment, DoesNotDependOnTheNumberOfThreads)
   Adjustment three = one;
   ThreadPool single(1);
   ThreadPool several(3);
-  adjustJointly(scene().light_field, EXPECTED_PX, 1, single, one);
-  adjustJointly(scene().light_field, EXPECTED_PX, 1, several, three);
+  adjustJointly(SlopedViews(scene().light_field, single), EXPECTED_PX, 1, single, one);
+  adjustJointly(SlopedViews(scene().light_field, several), EXPECTED_PX, 1, several, three);
   EXPECT_EQ(one.points[7].disparity, three.points[7].disparity);
   EXPECT_EQ(one.step_ratio, three.step_ratio);
 }
