@@ -31,7 +31,7 @@ struct MultiviewOptions
 
   MultiviewPreset preset = MultiviewPreset::Balanced;  ///< time against accuracy
   /// Distance between the disparities that are tried, in pixels; smaller is slower and finer. PRESET_NUMBER:
-  /// 1/16 with the preset quality, else 1/8.
+  /// 1/16 with the preset quality, 3/16 for a pair of views with realtime, else 1/8.
   float label_step_px = PRESET_NUMBER;
   /// P1: cost of a change of disparity by 1/8 px between neighbours. Raise it where the result is noisy,
   /// lower it where slanted surfaces show steps.
@@ -40,7 +40,7 @@ struct MultiviewOptions
   /// for fine structures.
   int large_change_penalty = 1200;
   /// Times that the views' occlusions are found from the map and the search repeated. PRESET_NUMBER: twice
-  /// with the preset quality, else once.
+  /// with the preset quality, never for a pair of views with realtime, else once.
   int visibility_passes = PRESET_NUMBER;
   /// Move textureless regions to the farthest of their borders; the presets realtime and fast leave it out.
   bool background_fusion = true;

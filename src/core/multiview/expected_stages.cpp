@@ -20,11 +20,17 @@ Stages ofMeasuring()
   return {{"exposure", 4.2}, {"range", 4.1}, {"registration", 3.0}, {"noise", 0.4}};
 }
 
-Stages ofSolver(const MultiviewOptions& options)
+/// Before it is known who sees what.
+Stages ofFirstSearch()
 {
   // A stage that a preset leaves out is passed over.
-  Stages stages = {{"prepare", 1.4},    {"cost", 10.8},     {"aggregate", 4.2}, {"median", 0.3},
-                   {"background", 1.4}, {"aggregate", 4.2}, {"median", 0.2},    {"background", 1.4}};
+  return {{"prepare", 1.4},    {"cost", 10.8},     {"aggregate", 4.2}, {"median", 0.3},
+          {"background", 1.4}, {"aggregate", 4.2}, {"median", 0.2},    {"background", 1.4}};
+}
+
+Stages ofSolver(const MultiviewOptions& options)
+{
+  Stages stages = ofFirstSearch();
   for (int pass = 0; pass < options.visibility_passes; ++pass)
   {
     append(stages, {{"visibility", 3.1}, {"visible_cost", 11.6}, {"aggregate", 4.2}, {"median", 0.3}});
@@ -62,7 +68,7 @@ std::vector<ExpectedStage> expectedStages(const MultiviewOptions& options, bool 
   append(stages, ofSolver(numbers));
   if (pair)
   {
-    append(stages, atHalfResolution(ofSolver(numbers)));
+    append(stages, atHalfResolution(ofFirstSearch()));
     stages.push_back({"left_right_check", 1.0});
   }
   return stages;

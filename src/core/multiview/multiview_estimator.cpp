@@ -238,10 +238,10 @@ void MultiviewEstimator::solve(const LightField& views, const EstimateRequest& r
 void MultiviewEstimator::solveCoarseToFine(const LightField& chosen, const SceneMeasures& measures,
                                            RunContext& context)
 {
-  MultiviewOptions options = withPresetNumbers(options_);
+  MultiviewOptions options = options_;
   options.temporal = false;
   MultiviewOptions coarse_options = options;
-  coarse_options.refinements = std::min(options.refinements, 1);
+  coarse_options.refinements = std::min(withPresetNumbers(options).refinements, 1);
   const LightField half = memory_->coarse_half.reduce(chosen, context.pool);
   const double half_unit = multiview::solverUnit(half);
   multiview::Solver& coarse_solver = memory_->coarse_solver;
@@ -312,7 +312,10 @@ void MultiviewEstimator::keepResult(double unit, DisparityEstimate& estimate) co
 }
 
 /// Where only two views tell the depth, a map of the other view tells which pixels both agree on; the rest is
-/// filled from behind. The other map is made at half the resolution, which is enough to tell.
+/// filled from behind. The other map is made at half the resolution by a single search, which is enough to
+/// tell: a second search that knows who sees what pulls the edges of both maps to where they agree, so that
+/// 0.80 instead of 0.47 % of ETH3D playground are off by more than 4 px, and 10.9 instead of 10.2 % of
+/// Middlebury Art.
 void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasures& measures,
                                      RunContext& context, DisparityEstimate& estimate)
 {
@@ -321,9 +324,9 @@ void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasur
   {
     return;
   }
-  MultiviewOptions options = withPresetNumbers(options_);
+  MultiviewOptions options = options_;
   options.temporal = false;
-  options.refinements = std::min(options.refinements, 1);
+  options.visibility_passes = 0;
   LightField turned = memory_->turned_half.reduceInColour(multiview::turnedRound(chosen), context.pool);
   if (isLarge(chosen))
   {
@@ -331,12 +334,14 @@ void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasur
   }
   const double unit = multiview::solverUnit(turned);
   multiview::Solver& solver = memory_->turned_solver;
-  solver.run(multiview::inSolverUnit(turned, unit),
-             multiview::solverSettings(options, measures, turned, unit), context);
+  const cv::Mat turned_disparity =
+      solver.search(multiview::inSolverUnit(turned, unit),
+                    multiview::solverSettings(options, measures, turned, unit), context) /
+      unit;
   const StageTimer timer(context, "left_right_check");
   const View& other = multiview::otherView(chosen);
   const cv::Mat unconfirmed =
-      multiview::findUnconfirmed(estimate.disparity, other, solver.disparity() / unit, {}, context.pool);
+      multiview::findUnconfirmed(estimate.disparity, other, turned_disparity, {}, context.pool);
   multiview::BackgroundFillSettings fill;
   if (options_.preset == MultiviewPreset::Realtime)
   {

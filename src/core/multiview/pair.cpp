@@ -12,6 +12,10 @@ constexpr int LARGE_CHANGE_FACTOR = 4;
 /// Of the truncation. The full charge makes the foreground spread over what it hides, where the costs of all
 /// labels behind it are that charge.
 constexpr int UNSEEN_DIVISOR = 2;
+/// Of the label step of many views, for realtime: labels 3/4 px apart instead of 1/2. A sixth of the time
+/// less for 4.8 instead of 4.0 % of playground and 25.2 instead of 23.8 % of Art off by more than 1 px; the
+/// shares off by more than 4 px stay.
+constexpr float REALTIME_LABEL_STEP = 1.5F;
 
 std::size_t otherIndex(const LightField& pair)
 {
@@ -43,7 +47,7 @@ LightField turnedRound(const LightField& pair)
   return turned;
 }
 
-void adaptToPair(SolverSettings& settings)
+void adaptToPair(const MultiviewOptions& given, SolverSettings& settings)
 {
   settings.search.paths.large_change_penalty *= LARGE_CHANGE_FACTOR;
   settings.search.cost.unseen_penalty = settings.search.cost.truncation / UNSEEN_DIVISOR;
@@ -53,6 +57,19 @@ void adaptToPair(SolverSettings& settings)
   if (!settings.grey_search)
   {
     settings.search.first_label_step_share = 1.0F;
+  }
+  if (given.preset == MultiviewPreset::Realtime)
+  {
+    // A single search of all labels is quicker than one of every second label and another one near it, and
+    // better: 0.6 instead of 0.9 % of playground are off by more than 4 px, 13 % of Art either way.
+    if (given.visibility_passes == MultiviewOptions::PRESET_NUMBER)
+    {
+      settings.search.visibility_passes = 0;
+    }
+    if (given.label_step_px == MultiviewOptions::PRESET_NUMBER)
+    {
+      settings.label_step_px *= REALTIME_LABEL_STEP;
+    }
   }
 }
 

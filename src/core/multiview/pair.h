@@ -3,6 +3,7 @@
 
 #include "core/multiview/solver.h"
 #include "light_field_depth/core/light_field.h"
+#include "light_field_depth/core/multiview_options.h"
 
 namespace light_field_depth::multiview
 {
@@ -17,8 +18,9 @@ LightField turnedRound(const LightField& pair);
 
 /// Fits what the search assumes to one view beside the reference: smoothness has to bridge what no second
 /// view explains, and what the other view cannot see is common rather than the last resort.
+/// @param given as the caller gave them, without the numbers of the preset
 /// @param settings after adaptToNoise()
-void adaptToPair(SolverSettings& settings);
+void adaptToPair(const MultiviewOptions& given, SolverSettings& settings);
 
 }  // namespace light_field_depth::multiview
 

@@ -32,6 +32,15 @@ bool Solver::follow(const LightField& light_field, const SolverSettings& setting
   return solve(light_field, settings, disparity_, context);
 }
 
+const cv::Mat& Solver::search(const LightField& light_field, const SolverSettings& settings,
+                              RunContext& context)
+{
+  const LabelSpace labels = makeLabelSpace(settings.range, settings.label_step_px, MAX_LABELS);
+  prepare(light_field, settings, labels, context);
+  search_.run({views_, guide(), labels}, settings.search, cv::Mat(), context, searched_);
+  return searched_.last;
+}
+
 bool Solver::solve(const LightField& light_field, const SolverSettings& settings, const cv::Mat& around,
                    RunContext& context)
 {

@@ -47,6 +47,10 @@ public:
   /// @return false if this is another scene; the results are then those of no frame, and run() is due
   bool follow(const LightField& light_field, const SolverSettings& settings, RunContext& context);
 
+  /// The search alone, without refinement and confidence: disparity() and what belongs to it stay those of
+  /// the last run. @return CV_32FC1 in the unit of the light field; overwritten by the next call
+  const cv::Mat& search(const LightField& light_field, const SolverSettings& settings, RunContext& context);
+
   /// CV_32FC1 results of the last run; overwritten by the next.
   const cv::Mat& disparity() const { return disparity_; }
   const cv::Mat& confidence() const { return confidence_; }

@@ -57,7 +57,7 @@ SolverSettings solverSettings(const MultiviewOptions& given, const SceneMeasures
   adaptToNoise(measures.noise_sigma, settings);
   if (isPair(light_field))
   {
-    adaptToPair(settings);
+    adaptToPair(given, settings);
   }
   return settings;
 }

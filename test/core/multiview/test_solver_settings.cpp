@@ -87,5 +87,19 @@ TEST(SolverSettings, NoiseAndPairsAreAdaptedTo)
   EXPECT_EQ(pair.search.cost.unseen_penalty, pair.search.cost.truncation / 2);
 }
 
+TEST(SolverSettings, RealtimeSearchesAPairOnceWithFewerLabelsUnlessToldOtherwise)
+{
+  MultiviewOptions options;
+  options.preset = MultiviewPreset::Realtime;
+  EXPECT_EQ(solverSettings(options, {}, row(2), 0.25).search.visibility_passes, 0);
+  EXPECT_FLOAT_EQ(solverSettings(options, {}, row(2), 0.25).label_step_px, 0.1875F);
+  EXPECT_EQ(solverSettings(options, {}, row(3), 0.25).search.visibility_passes, 1);
+  EXPECT_FLOAT_EQ(solverSettings(options, {}, row(3), 0.25).label_step_px, 0.125F);
+  options.visibility_passes = 1;
+  options.label_step_px = 0.125F;
+  EXPECT_EQ(solverSettings(options, {}, row(2), 0.25).search.visibility_passes, 1);
+  EXPECT_FLOAT_EQ(solverSettings(options, {}, row(2), 0.25).label_step_px, 0.125F);
+}
+
 }  // namespace
 }  // namespace light_field_depth::multiview
