@@ -69,7 +69,9 @@ struct ProductRequest
   bool depth = false;            ///< PipelineResult::depth
   bool organized_cloud = false;  ///< PipelineResult::organized_cloud
   bool dense_cloud = false;      ///< PipelineResult::dense_cloud
-  ViewMapSink view_maps;         ///< receives the map of every view; empty: none are made
+  /// The estimate has what Pipeline::runDenseCloud() takes; costs next to nothing.
+  bool dense_cloud_later = false;
+  ViewMapSink view_maps;  ///< receives the map of every view; empty: none are made
   /// Where the points go; empty: into the vectors of the result.
   PointAllocator organized_cloud_allocator;
   DensePointSink dense_cloud_sink;  ///< where the points of the dense cloud go, block after block; likewise
@@ -113,6 +115,17 @@ public:
   PipelineResult run(const LightField& light_field, const PipelineOptions& options,
                      const ProductRequest& request);
 
+  /// The dense cloud of a result whose run had ProductRequest::dense_cloud_later: point for point that of a
+  /// run with ProductRequest::dense_cloud. May be another pipeline's than that of the run, which then goes on
+  /// with the next frame meanwhile; nothing that a pipeline carries from frame to frame is touched. Reads
+  /// the images and the maps and changes none of them.
+  /// @param light_field, options as they were given to the run
+  /// @param estimate that the run gave
+  /// @return times of the stages; none, and no points, without a calibration
+  /// @throw InputError, Cancelled
+  std::vector<StageTime> runDenseCloud(const LightField& light_field, const PipelineOptions& options,
+                                       const DisparityEstimate& estimate, const DensePointSink& sink);
+
   /// The next run starts as the first one does: nothing of earlier frames helps it (see
   /// MultiviewOptions::temporal). To be called by the thread that runs.
   void forget();
@@ -121,6 +134,7 @@ public:
   void cancel() { cancellation_.cancel(); }
 
 private:
+  MultiviewEstimator& multiviewEstimator(const PipelineOptions& options);
   Estimator& estimatorFor(const PipelineOptions& options);
   void unproject(const LightField& light_field, const PipelineOptions& options, const ProductRequest& request,
                  RunContext& context, PipelineResult& result);

@@ -145,7 +145,12 @@ cv::Mat maskedWithin(const cv::Mat& mask, int radius_px)
 void invalidateMasked(const LightField& light_field, DisparityEstimate& estimate)
 {
   invalidate(light_field.reference().mask, estimate.disparity, estimate.confidence);
-  for (ViewDisparity& map : estimate.view_disparities)
+  invalidateMasked(light_field, estimate.view_disparities);
+}
+
+void invalidateMasked(const LightField& light_field, std::vector<ViewDisparity>& maps)
+{
+  for (ViewDisparity& map : maps)
   {
     const cv::Mat& mask = light_field.views[map.view_index].mask;
     invalidate(mask, map.disparity, map.confidence);

@@ -1,6 +1,8 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_CORE_LIGHT_FIELD_VIEW_MASK_H
 #define LIGHT_FIELD_DEPTH_SRC_CORE_LIGHT_FIELD_VIEW_MASK_H
 
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "light_field_depth/core/estimator.h"
@@ -23,6 +25,7 @@ cv::Mat maskedWithin(const cv::Mat& mask, int radius_px);
 
 /// Makes the maps NaN, with a confidence of 0, where their views are masked.
 void invalidateMasked(const LightField& light_field, DisparityEstimate& estimate);
+void invalidateMasked(const LightField& light_field, std::vector<ViewDisparity>& maps);
 
 }  // namespace light_field_depth
 

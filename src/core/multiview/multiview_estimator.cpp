@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -94,6 +95,28 @@ Registration ofAllViews(const Registration& registration, const LightField& chos
   return result;
 }
 
+/// The inverse.
+Registration ofChosenViews(const Registration& registration, const LightField& all, const LightField& chosen)
+{
+  Registration result = registration;
+  if (registration.views.empty())
+  {
+    return result;
+  }
+  result.views.clear();
+  for (const View& view : chosen.views)
+  {
+    result.views.push_back(registration.views[indexOf(all, view.grid)]);
+  }
+  return result;
+}
+
+/// The views of a light field that are solved, with 8 bits a channel.
+LightField chosenViews(const LightField& light_field, ViewSelection wanted)
+{
+  return toEightBit(selectViews(light_field, selectionOf(light_field, wanted)));
+}
+
 }  // namespace
 
 ViewSelection selectionOf(const LightField& light_field, ViewSelection wanted)
@@ -135,7 +158,7 @@ MultiviewEstimator::~MultiviewEstimator() = default;
 DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, const EstimateRequest& request,
                                                RunContext& context)
 {
-  const LightField chosen = toEightBit(selectViews(light_field, selectionOf(light_field, request.views)));
+  const LightField chosen = chosenViews(light_field, request.views);
   const bool halved = options_.preset == MultiviewPreset::Fast &&
                       std::min(chosen.size().width, chosen.size().height) >= MIN_HALVED_SIDE_PX;
   DisparityEstimate estimate;
@@ -151,27 +174,31 @@ DisparityEstimate MultiviewEstimator::estimate(const LightField& light_field, co
     solve(chosen, request, context, estimate);
     estimate.views_used = chosen.views.size();
   }
+  estimate.registration = ofAllViews(estimate.registration, chosen, light_field);
   if (request.solved_maps > 0)
   {
-    solveOtherViews(light_field, correctRegistration(chosen, estimate.registration, context.pool),
-                    request.solved_maps, context, estimate);
+    estimate.view_disparities = {ofView(light_field.reference_index, estimate)};
+    std::vector<ViewDisparity> others = solveOtherViews(light_field, request, estimate, context);
+    std::move(others.begin(), others.end(), std::back_inserter(estimate.view_disparities));
   }
-  estimate.registration = ofAllViews(estimate.registration, chosen, light_field);
   return estimate;
 }
 
-/// The same views as others of them see them: each is solved like a light field of its own, in the range that
-/// is known.
-void MultiviewEstimator::solveOtherViews(const LightField& light_field, const LightField& chosen,
-                                         std::size_t maps, RunContext& context, DisparityEstimate& estimate)
+std::vector<ViewDisparity> MultiviewEstimator::solveOtherViews(const LightField& light_field,
+                                                               const EstimateRequest& request,
+                                                               const DisparityEstimate& estimate,
+                                                               RunContext& context)
 {
-  estimate.view_disparities = {ofView(light_field.reference_index, estimate)};
-  const std::vector<std::size_t> views = spreadViews(chosen, maps);
-  if (views.size() < 2)
+  std::vector<ViewDisparity> maps;
+  if (request.solved_maps < 2)
   {
-    return;
+    return maps;
   }
   const StageTimer timer(context, "view_maps");
+  const LightField given = chosenViews(light_field, request.views);
+  const LightField chosen =
+      correctRegistration(given, ofChosenViews(estimate.registration, light_field, given), context.pool);
+  const std::vector<std::size_t> views = spreadViews(chosen, request.solved_maps);
   if (!memory_->other_views)
   {
     memory_->other_views = std::make_unique<MultiviewEstimator>();
@@ -180,16 +207,16 @@ void MultiviewEstimator::solveOtherViews(const LightField& light_field, const Li
   options.temporal = false;
   options.registration = false;  // they stand where they are
   memory_->other_views->setOptions(options);
-  EstimateRequest request;
-  request.disparity_range = estimate.range;
-  request.views = ViewSelection::All;
+  EstimateRequest alone;
+  alone.disparity_range = estimate.range;
+  alone.views = ViewSelection::All;
   RunContext apart(context.pool);
   for (std::size_t i = 1; i < views.size(); ++i)
   {
-    const DisparityEstimate other =
-        memory_->other_views->estimate(turnedTo(chosen, views[i]), request, apart);
-    estimate.view_disparities.push_back(ofView(indexOf(light_field, chosen.views[views[i]].grid), other));
+    const DisparityEstimate other = memory_->other_views->estimate(turnedTo(chosen, views[i]), alone, apart);
+    maps.push_back(ofView(indexOf(light_field, chosen.views[views[i]].grid), other));
   }
+  return maps;
 }
 
 LightField MultiviewEstimator::reduced(const LightField& chosen, RunContext& context)

@@ -34,6 +34,14 @@ public:
   DisparityEstimate estimate(const LightField& light_field, const EstimateRequest& request,
                              RunContext& context) override;
 
+  /// The maps of other views for an estimate that was made without them, perhaps by another estimator: each
+  /// view is solved like a light field of its own, in the range that is known. What this estimator carries
+  /// from frame to frame stays as it is.
+  /// @param light_field, request as they were given to estimate(), but for the number of maps
+  /// @return EstimateRequest::solved_maps less the reference's, fewer where the views do not allow as many
+  std::vector<ViewDisparity> solveOtherViews(const LightField& light_field, const EstimateRequest& request,
+                                             const DisparityEstimate& estimate, RunContext& context);
+
 private:
   struct FrameMemory;
   LightField reduced(const LightField& chosen, RunContext& context);
@@ -43,8 +51,6 @@ private:
               DisparityEstimate& estimate);
   void solveCoarseToFine(const LightField& chosen, const multiview::SceneMeasures& measures,
                          RunContext& context);
-  void solveOtherViews(const LightField& light_field, const LightField& chosen, std::size_t maps,
-                       RunContext& context, DisparityEstimate& estimate);
   void keepResult(double unit, DisparityEstimate& estimate) const;
   void confirmPair(const LightField& chosen, const multiview::SceneMeasures& measures, RunContext& context,
                    DisparityEstimate& estimate);

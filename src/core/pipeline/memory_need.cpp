@@ -46,7 +46,8 @@ double bytesPerPixel(double pixels, const PipelineOptions& options, const Produc
   {
     bytes = BYTES_OF_SMALL;
   }
-  return bytes + (request.dense_cloud || request.view_maps ? BYTES_OF_DENSE_CLOUD : 0.0);
+  return bytes +
+         (request.dense_cloud || request.dense_cloud_later || request.view_maps ? BYTES_OF_DENSE_CLOUD : 0.0);
 }
 
 std::string amount(double megabytes)

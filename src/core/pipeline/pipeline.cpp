@@ -61,22 +61,58 @@ PointAllocator allocatorOr(const PointAllocator& allocator, std::vector<ColoredP
 
 /// Refinement lets the slopes of surfaces go on a little beyond the ends of the range; a range that was given
 /// is a promise, so that the maps end there.
-void keepInRange(const DisparityRange& range, DisparityEstimate& estimate)
+void keepInRange(const DisparityRange& range, cv::Mat& map)
 {
-  const auto limit = [&range](cv::Mat& map)
+  for (int y = 0; y < map.rows; ++y)
   {
-    for (int y = 0; y < map.rows; ++y)
-    {
-      auto* const row = map.ptr<float>(y);
-      std::transform(row, row + map.cols, row,
-                     [&range](float value) { return std::clamp(value, range.min, range.max); });
-    }
-  };
-  limit(estimate.disparity);
-  for (ViewDisparity& view : estimate.view_disparities)
-  {
-    limit(view.disparity);
+    auto* const row = map.ptr<float>(y);
+    std::transform(row, row + map.cols, row,
+                   [&range](float value) { return std::clamp(value, range.min, range.max); });
   }
+}
+
+void keepInRange(const std::optional<DisparityRange>& range, std::vector<ViewDisparity>& maps)
+{
+  for (ViewDisparity& view : maps)
+  {
+    if (range)
+    {
+      keepInRange(*range, view.disparity);
+    }
+  }
+}
+
+cv::Mat limited(const cv::Mat& disparity, const LightField& light_field, const PipelineOptions& options)
+{
+  return limitDepth(disparity, *light_field.calibration, options.min_depth_m, options.max_depth_m);
+}
+
+/// The dense cloud of maps that are finished but for the limits of depth.
+void fuse(const LightField& light_field, const PipelineOptions& options, std::vector<ViewDisparity> maps,
+          RunContext& context, const DensePointSink& sink)
+{
+  const StageTimer timer(context, "dense_cloud");
+  for (ViewDisparity& map : maps)
+  {
+    map.disparity = limited(map.disparity, light_field, options);
+  }
+  denseCloud(light_field, maps, options.dense_cloud, context.pool, sink);
+}
+
+/// How many maps the run itself solves.
+std::size_t mapsOf(const PipelineOptions& options, const ProductRequest& request, bool calibrated)
+{
+  const auto all = static_cast<std::size_t>(options.dense_cloud.maps);
+  if (request.view_maps || (request.dense_cloud && calibrated))
+  {
+    return all;
+  }
+  if (request.dense_cloud_later && calibrated)
+  {
+    // Those of the method of 2017 come out of the volumes of the run.
+    return options.method == Method::Multiview ? 1 : all;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -151,16 +187,21 @@ void Pipeline::forget()
   paper2017_.reset();
 }
 
+MultiviewEstimator& Pipeline::multiviewEstimator(const PipelineOptions& options)
+{
+  if (!multiview_)
+  {
+    multiview_ = std::make_unique<MultiviewEstimator>();
+  }
+  multiview_->setOptions(options.multiview);
+  return *multiview_;
+}
+
 Estimator& Pipeline::estimatorFor(const PipelineOptions& options)
 {
   if (options.method == Method::Multiview)
   {
-    if (!multiview_)
-    {
-      multiview_ = std::make_unique<MultiviewEstimator>();
-    }
-    multiview_->setOptions(options.multiview);
-    return *multiview_;
+    return multiviewEstimator(options);
   }
   if (!paper2017_)
   {
@@ -180,9 +221,7 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
     trust = trust.clone();
     trust.setTo(BELOW_EVERY_CONFIDENCE, estimate.filled);
   }
-  const auto limited = [&](const cv::Mat& disparity)
-  { return limitDepth(disparity, *light_field.calibration, options.min_depth_m, options.max_depth_m); };
-  const cv::Mat disparity = limited(estimate.disparity);
+  const cv::Mat disparity = limited(estimate.disparity, light_field, options);
   if (request.depth)
   {
     const StageTimer timer(context, "depth");
@@ -202,15 +241,10 @@ void Pipeline::unproject(const LightField& light_field, const PipelineOptions& o
   }
   if (request.dense_cloud)
   {
-    const StageTimer timer(context, "dense_cloud");
-    for (ViewDisparity& map : result.estimate.view_disparities)
-    {
-      map.disparity = limited(map.disparity);
-    }
     const DensePointSink into_result = [&result](const DensePoint* points, std::size_t count)
     { result.dense_cloud.insert(result.dense_cloud.end(), points, points + count); };
-    denseCloud(light_field, estimate.view_disparities, options.dense_cloud, pool_,
-               request.dense_cloud_sink ? request.dense_cloud_sink : into_result);
+    fuse(light_field, options, estimate.view_disparities, context,
+         request.dense_cloud_sink ? request.dense_cloud_sink : into_result);
   }
 }
 
@@ -231,19 +265,20 @@ PipelineResult Pipeline::run(const LightField& light_field, const PipelineOption
   EstimateRequest estimate_request;
   estimate_request.disparity_range = options.disparity_range;
   estimate_request.views = options.views;
-  const bool maps_wanted = (request.dense_cloud && calibrated) || request.view_maps;
-  estimate_request.solved_maps = maps_wanted ? static_cast<std::size_t>(options.dense_cloud.maps) : 0;
+  estimate_request.solved_maps = mapsOf(options, request, calibrated);
 
   // The clouds and the estimate see the same bytes: those of 16 bits are converted once.
-  const bool colours = calibrated && (request.organized_cloud || request.dense_cloud);
+  const bool colours =
+      calibrated && (request.organized_cloud || request.dense_cloud || request.dense_cloud_later);
   const LightField known = withFilledMasks(light_field, pool_);
   const LightField shown = colours ? toEightBit(known) : known;
   PipelineResult result;
   result.estimate = estimatorFor(options).estimate(shown, estimate_request, context);
   if (options.disparity_range)
   {
-    keepInRange(*options.disparity_range, result.estimate);
+    keepInRange(*options.disparity_range, result.estimate.disparity);
   }
+  keepInRange(options.disparity_range, result.estimate.view_disparities);
   invalidateMasked(shown, result.estimate);
   if (request.view_maps)
   {
@@ -258,6 +293,33 @@ PipelineResult Pipeline::run(const LightField& light_field, const PipelineOption
   result.total_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return result;
+}
+
+std::vector<StageTime> Pipeline::runDenseCloud(const LightField& light_field, const PipelineOptions& options,
+                                               const DisparityEstimate& estimate, const DensePointSink& sink)
+{
+  throwIfAny(validate(options));
+  RunContext context(pool_);
+  if (!light_field.calibration)
+  {
+    return {};
+  }
+  const LightField shown = toEightBit(withFilledMasks(light_field, pool_));
+  std::vector<ViewDisparity> maps = estimate.view_disparities;
+  if (options.method == Method::Multiview)
+  {
+    EstimateRequest request;
+    request.views = options.views;
+    request.solved_maps = static_cast<std::size_t>(options.dense_cloud.maps);
+    std::vector<ViewDisparity> others =
+        multiviewEstimator(options).solveOtherViews(shown, request, estimate, context);
+    // The reference's map is finished, and others may be reading it.
+    keepInRange(options.disparity_range, others);
+    invalidateMasked(shown, others);
+    std::move(others.begin(), others.end(), std::back_inserter(maps));
+  }
+  fuse(shown, options, std::move(maps), context, sink);
+  return std::move(context.stage_times);
 }
 
 }  // namespace light_field_depth

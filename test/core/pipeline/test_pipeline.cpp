@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/core/pipeline.h"
@@ -190,6 +192,53 @@ TEST(Pipeline, KeepsTheMapsInARangeThatIsGiven)
       EXPECT_GE(min, options.disparity_range->min) << toString(method);
       EXPECT_LE(max, options.disparity_range->max) << toString(method);
     }
+  }
+}
+
+bool sameMaps(const cv::Mat& a, const cv::Mat& b)
+{
+  return a.size() == b.size() && std::equal(a.datastart, a.dataend, b.datastart, b.dataend);
+}
+
+TEST(Pipeline, MakesTheSameDenseCloudLater)
+{
+  auto input = scene();
+  View& turned = input.light_field.views.front();
+  cv::warpAffine(turned.image, turned.image, cv::Matx23d(1.0, 0.0, 1.5, 0.0, 1.0, 0.0), turned.image.size(),
+                 cv::INTER_CUBIC, cv::BORDER_REPLICATE);  // a registration has to be handed on
+  cv::Mat& mask = input.light_field.views.back().mask;
+  mask = cv::Mat(input.truth.size(), CV_8UC1, cv::Scalar(255));
+  mask({0, 0, 20, 96}).setTo(0);
+  Pipeline pipeline(2);
+  PipelineOptions options;
+  options.dense_cloud.maps = 3;
+  options.disparity_range = DisparityRange{-1.0F, 2.2F};
+  options.max_depth_m = 2.3F;
+  options.multiview.temporal = true;
+  ProductRequest at_once;
+  at_once.dense_cloud = true;
+  ProductRequest later;
+  later.dense_cloud_later = true;
+  for (const Method method : {Method::Multiview, Method::Paper2017})
+  {
+    options.method = method;
+    const std::vector<DensePoint> expected = Pipeline(1).run(input.light_field, options, at_once).dense_cloud;
+    ASSERT_FALSE(expected.empty());
+    const PipelineResult result = pipeline.run(input.light_field, options, later);
+    EXPECT_TRUE(result.dense_cloud.empty());
+    const cv::Mat before = result.estimate.disparity.clone();
+    Pipeline apart(2);
+    for (Pipeline* const other : {&apart, &pipeline})
+    {
+      std::vector<DensePoint> points;
+      other->runDenseCloud(input.light_field, options, result.estimate,
+                           [&](const DensePoint* block, std::size_t count)
+                           { points.insert(points.end(), block, block + count); });
+      ASSERT_EQ(points.size(), expected.size());
+      EXPECT_EQ(std::memcmp(points.data(), expected.data(), points.size() * sizeof(DensePoint)), 0)
+          << toString(method);
+    }
+    EXPECT_TRUE(sameMaps(result.estimate.disparity, before)) << "others read it meanwhile";
   }
 }
 
