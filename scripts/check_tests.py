@@ -18,6 +18,8 @@ COVERED_BY = {
     'background_regions': 'test_background_fusion',
     'cloud_reader': 'test_cloud_files',
     'cloud_transformer': 'test_robot',
+    'depth_node_frame': 'test_depth_node',
+    'depth_node_publication': 'test_depth_node',
     'depth_node_services': 'test_robot',
     'depth_node_watch': 'test_node_faults',
     'exposure_kernels': 'test_exposure_views',

@@ -4,7 +4,18 @@
 
 namespace light_field_depth
 {
-BackgroundRunner::BackgroundRunner() : thread_([this] { loop(); }) {}
+BackgroundRunner::BackgroundRunner(std::function<void()> prepare)
+    : thread_(
+          [this, prepare = std::move(prepare)]
+          {
+            if (prepare)
+            {
+              prepare();
+            }
+            loop();
+          })
+{
+}
 
 BackgroundRunner::~BackgroundRunner()
 {
@@ -20,6 +31,20 @@ bool BackgroundRunner::run(std::function<void()> job)
     return false;
   }
   waiting_ = std::move(job);
+  changed_.notify_all();
+  return true;
+}
+
+bool BackgroundRunner::runIfIdle(std::function<void()> job)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (stopped_ || running_ || waiting_)
+    {
+      return false;
+    }
+    waiting_ = std::move(job);
+  }
   changed_.notify_all();
   return true;
 }
@@ -48,11 +73,13 @@ void BackgroundRunner::loop()
       return;
     }
     std::function<void()> job = std::exchange(waiting_, nullptr);
+    running_ = true;
     lock.unlock();
     changed_.notify_all();
     job();
     job = nullptr;  // what it held is let go without the lock
     lock.lock();
+    running_ = false;
   }
 }
 

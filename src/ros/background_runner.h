@@ -13,7 +13,8 @@ namespace light_field_depth
 class BackgroundRunner
 {
 public:
-  BackgroundRunner();
+  /// @param prepare called first on the thread; throws nothing
+  explicit BackgroundRunner(std::function<void()> prepare = nullptr);
   ~BackgroundRunner();
   BackgroundRunner(const BackgroundRunner&) = delete;
   BackgroundRunner& operator=(const BackgroundRunner&) = delete;
@@ -21,6 +22,9 @@ public:
   /// @param job throws nothing
   /// @return false after stop(): the job will not run
   bool run(std::function<void()> job);
+
+  /// The same if no job runs or waits. @return false otherwise, and after stop()
+  bool runIfIdle(std::function<void()> job);
 
   /// Lets the job in hand end and forgets the one that waits; nothing runs any more afterwards.
   void stop();
@@ -31,6 +35,7 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void()> waiting_;
+  bool running_ = false;
   bool stopped_ = false;
   std::thread thread_;
 };

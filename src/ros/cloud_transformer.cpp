@@ -33,7 +33,7 @@ CloudTransformer::CloudTransformer(std::string target_frame)
 {
 }
 
-sensor_msgs::PointCloud2Ptr CloudTransformer::transform(const sensor_msgs::PointCloud2& cloud)
+sensor_msgs::PointCloud2Ptr CloudTransformer::transform(const sensor_msgs::PointCloud2& cloud) const
 {
   geometry_msgs::TransformStamped transform;
   try

@@ -9,7 +9,7 @@
 
 namespace light_field_depth
 {
-/// Brings clouds into a frame that tf knows. Used by one thread at a time.
+/// Brings clouds into a frame that tf knows. Thread safe.
 class CloudTransformer
 {
 public:
@@ -17,7 +17,7 @@ public:
 
   /// Waits a little for a transform that is on its way.
   /// @throw InputError if tf has no transform at the stamp of the cloud
-  sensor_msgs::PointCloud2Ptr transform(const sensor_msgs::PointCloud2& cloud);
+  sensor_msgs::PointCloud2Ptr transform(const sensor_msgs::PointCloud2& cloud) const;
 
 private:
   std::string target_frame_;

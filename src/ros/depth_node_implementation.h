@@ -24,6 +24,7 @@
 #include "light_field_depth/ros/depth_node.h"
 #include "ros/background_runner.h"
 #include "ros/cloud_transformer.h"
+#include "ros/dense_cloud_maker.h"
 #include "ros/frame_queue.h"
 #include "ros/input_health.h"
 #include "ros/light_field_assembler.h"
@@ -55,7 +56,16 @@ struct FrameReport
   Time published;
 };
 
-/// The parts of a DepthNode and the two threads that run them.
+/// What is to be made of a frame.
+struct FrameDemand
+{
+  Subscribers subscribers;
+  bool everything = false;   ///< the result is going to be saved
+  bool dense_cloud = false;  ///< one is due on points_dense
+};
+
+/// The parts of a DepthNode and the threads that run them: the worker, the publication, and the maker of
+/// dense clouds with threads of its own.
 class DepthNode::Implementation
 {
 public:
@@ -83,12 +93,14 @@ private:
 
   void workerLoop();
   void processSafely(FrameSet set);
-  void process(FrameSet set, const Subscribers& subscribers);
+  void process(FrameSet set, const Subscribers& subscribers, bool asked_for);
   FrameProducts compute(const LightField& light_field, const NodeSettings& settings,
-                        const std_msgs::Header& header, const Subscribers& subscribers, bool everything);
+                        const std_msgs::Header& header, const FrameDemand& demand);
+  bool makeDenseCloud(FinishedFrame frame, bool wait);
   PointAllocator leftOutWhenTooLarge(PointAllocator allocator);
   void broadcastViews(const LightField& light_field, const FrameSet& set, const std_msgs::Header& header);
-  void transformClouds(FrameProducts& products);
+  sensor_msgs::PointCloud2Ptr transformed(const sensor_msgs::PointCloud2Ptr& cloud);
+  void publishDenseCloud(const FinishedFrame& frame, const sensor_msgs::PointCloud2Ptr& cloud);
   void publishSafely(FrameProducts& products, FrameReport report);
   LightFieldDepthStats statsOf(const FrameProducts& products, const FrameReport& report) const;
 
@@ -102,25 +114,24 @@ private:
   LightFieldAssembler assembler_;  ///< used by the worker alone; works on the pipeline's threads
   ResultWatch result_watch_;       ///< used by the worker alone
   MessagePool<sensor_msgs::PointCloud2> organized_clouds_;
-  MessagePool<sensor_msgs::PointCloud2> dense_clouds_;
   RateLimit dense_cloud_rate_;  ///< used by the worker alone
 
   std::mutex subscription_mutex_;  ///< guards results_ while it is made, and who is subscribed to what
   bool subscribed_ = false;
   bool shutting_down_ = false;
   std::unique_ptr<ResultPublisher> results_;
-  std::unique_ptr<CloudTransformer>
-      cloud_transformer_;  ///< used by publication_ alone; null without target_frame
+  std::unique_ptr<CloudTransformer> cloud_transformer_;  ///< null without target_frame
   std::vector<geometry_msgs::TransformStamped>
       view_frames_;  ///< that were sent last; used by the worker alone
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> broadcaster_;
   std::atomic<bool> forget_frames_{false};  ///< before the next one
   std::atomic<bool> paused_{false};
-  std::atomic<int> once_{0};       ///< sets that are worked on whoever listens, and even while paused
-  std::atomic<bool> save_{false};  ///< the next result
-  std::mutex last_set_mutex_;      ///< guards last_set_
-  FrameSet last_set_;              ///< that was worked on
-  BackgroundRunner publication_;   ///< after what its jobs use
+  std::atomic<int> once_{0};           ///< sets that are worked on whoever listens, and even while paused
+  std::atomic<bool> save_{false};      ///< the next result
+  std::mutex last_set_mutex_;          ///< guards last_set_
+  FrameSet last_set_;                  ///< that was worked on
+  BackgroundRunner publication_;       ///< after what its jobs use
+  DenseCloudMaker dense_cloud_maker_;  ///< likewise
   MasterWatch master_watch_;
 
   std::vector<ros::ServiceServer> services_;

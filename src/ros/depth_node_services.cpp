@@ -31,6 +31,7 @@ bool DepthNode::Implementation::reset(std_srvs::Empty::Request& /*request*/,
   queue_.setHeldBack(parameters_.use_camera_info && !input_.hasCameraInfos());
   queue_.clear();
   forget_frames_ = true;
+  dense_cloud_maker_.forget();
   if (subscribed_ && !shutting_down_)
   {
     input_.subscribe();

@@ -50,6 +50,19 @@ void NodeDiagnostics::framePublished(double latency_ms)
   last_failure_.clear();
 }
 
+void NodeDiagnostics::denseCloudPublished(double latency_ms)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++dense_clouds_.published;
+  dense_clouds_.last_latency_ms = latency_ms;
+}
+
+void NodeDiagnostics::denseCloudSkipped()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++dense_clouds_.skipped;
+}
+
 void NodeDiagnostics::frameFailed(const std::string& sentence)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -123,6 +136,12 @@ RecentFrames::Summary NodeDiagnostics::recentFrames() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   return recent_.summary();
+}
+
+DenseCloudCounts NodeDiagnostics::denseClouds() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return dense_clouds_;
 }
 
 void NodeDiagnostics::update(const InputState& state)
@@ -199,6 +218,8 @@ void NodeDiagnostics::reportFrames(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("recent latency, median, ms", recent.median_ms);
   status.add("recent latency, 99th percentile, ms", recent.p99_ms);
   status.add("recent latency, longest, ms", recent.longest_ms);
+  status.add("dense clouds published", dense_clouds_.published);
+  status.add("frames without one, since one was being made", dense_clouds_.skipped);
 }
 
 }  // namespace light_field_depth

@@ -28,6 +28,14 @@ struct InputState
   std::uint64_t missing = 0;  ///< how often
 };
 
+/// What became of the dense clouds since the node started.
+struct DenseCloudCounts
+{
+  std::uint64_t published = 0;
+  std::uint64_t skipped = 0;     ///< frames that were due for one while another was being made
+  double last_latency_ms = 0.0;  ///< from the arrival of the set's last image; 0: none yet
+};
+
 /// What the node tells its operator: sentences in the log, not too often, and the diagnostics. Thread safe,
 /// except update().
 class NodeDiagnostics
@@ -37,6 +45,10 @@ public:
 
   /// A frame has been published, just now. @param latency_ms from the arrival of its last image
   void framePublished(double latency_ms);
+  /// A dense cloud has been published, just now. @param latency_ms as above
+  void denseCloudPublished(double latency_ms);
+  /// There is none of a frame that was due for one, since another is being made.
+  void denseCloudSkipped();
   /// A frame could not be worked on. The sentence goes into the log unless it has just been there.
   void frameFailed(const std::string& sentence);
   /// Something that should be looked at, logged likewise.
@@ -50,6 +62,7 @@ public:
   std::uint64_t framesPublished() const;
   std::uint64_t framesFailed() const;
   RecentFrames::Summary recentFrames() const;
+  DenseCloudCounts denseClouds() const;
 
   /// Publishes the diagnostics when they are due, by a clock that no simulation turns back.
   void update(const InputState& state);
@@ -68,6 +81,7 @@ private:
   std::uint64_t frames_published_ = 0;
   std::uint64_t frames_failed_ = 0;
   RecentFrames recent_;
+  DenseCloudCounts dense_clouds_;
   std::string last_failure_;  ///< empty after a frame that went well
   std::string last_warning_;
   Health warned_health_ = Health::Ok;

@@ -127,8 +127,13 @@ void ResultPublisher::publish(const FrameProducts& products) const
   }
   if (products.points_dense != nullptr)
   {
-    points_dense_.publish(products.points_dense);
+    publishDenseCloud(products.points_dense);
   }
+}
+
+void ResultPublisher::publishDenseCloud(const sensor_msgs::PointCloud2Ptr& cloud) const
+{
+  points_dense_.publish(cloud);
 }
 
 void ResultPublisher::publish(const LightFieldDepthStats& stats) const

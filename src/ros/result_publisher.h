@@ -52,7 +52,7 @@ struct FrameProducts
   PipelineResult result;
   cv::Mat limited_disparity;  ///< that of the result with NaN beyond the limits of depth; may be empty
   sensor_msgs::PointCloud2Ptr points2;       ///< null when nobody wants it, or it cannot be had
-  sensor_msgs::PointCloud2Ptr points_dense;  ///< likewise
+  sensor_msgs::PointCloud2Ptr points_dense;  ///< likewise; null when it comes later
   sensor_msgs::CameraInfo info;              ///< of the reference view's image
   sensor_msgs::ImageConstPtr image;          ///< of the reference view
 };
@@ -74,6 +74,7 @@ public:
   void publish(const FrameProducts& products) const;
 
   void publish(const LightFieldDepthStats& stats) const;
+  void publishDenseCloud(const sensor_msgs::PointCloud2Ptr& cloud) const;
 
   void shutdown();
 

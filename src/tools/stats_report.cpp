@@ -116,6 +116,8 @@ nlohmann::json figuresOf(const Heard& heard, const ReportOptions& options)
           {"frames_published", last.frames_published},
           {"frames_dropped", last.frames_dropped},
           {"frames_failed", last.frames_failed},
+          {"dense_clouds", last.dense_clouds_published},
+          {"dense_cloud_latency_ms", last.dense_cloud_latency_ms},
           {"recent_frames", last.recent_frames},
           {"rate_hz", last.recent_rate_hz},
           {"latency_median_ms", last.recent_latency_median_ms},
@@ -142,6 +144,7 @@ std::string tableRow(const nlohmann::json& figures, const Heard& heard)
   column("mean_conversion_ms", 1);
   column("mean_pipeline_ms", 0);
   column("mean_publication_ms", 1);
+  column("dense_clouds", 0);
   text << " |";
   return text.str();
 }

@@ -32,6 +32,36 @@ TEST(BackgroundRunner, RunsAllJobsInTheirOrder)
   }
 }
 
+TEST(BackgroundRunner, TakesAJobForAnIdleThreadOnly)
+{
+  std::promise<void> begun;
+  std::promise<void> may_end;
+  std::atomic<bool> prepared = false;
+  std::atomic<int> ran = 0;
+  BackgroundRunner runner([&] { prepared = true; });
+  EXPECT_TRUE(runner.runIfIdle(
+      [&]
+      {
+        EXPECT_TRUE(prepared);
+        begun.set_value();
+        may_end.get_future().wait();
+        ++ran;
+      }));
+  EXPECT_FALSE(runner.runIfIdle([&] { ++ran; })) << "one waits or runs";
+  begun.get_future().wait();
+  EXPECT_FALSE(runner.runIfIdle([&] { ++ran; })) << "one runs";
+  may_end.set_value();
+  while (!runner.runIfIdle([&] { ++ran; }))
+  {
+    std::this_thread::yield();
+  }
+  EXPECT_TRUE(runner.run([] {}));
+  EXPECT_TRUE(runner.run([] {}));  // taken once the one before has begun
+  EXPECT_EQ(ran, 2);
+  runner.stop();
+  EXPECT_FALSE(runner.runIfIdle([&] { ++ran; }));
+}
+
 TEST(BackgroundRunner, StopsWithAJobWaitingAndSomebodyWhoBringsAnother)
 {
   std::promise<void> begun;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -100,6 +101,36 @@ TEST_F(DepthNodeTest, PublishesDisparityDepthAndCloudsOfASyntheticArray)
   EXPECT_EQ(report.received_by_view.size(), 9U);
   EXPECT_EQ(report.frames_failed, 0U);
   EXPECT_EQ(report.stage_names.size(), report.stage_ms.size());
+}
+
+TEST_F(DepthNodeTest, PublishesDisparityWhileADenseCloudIsMade)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(5, 5), {64, 48});
+  ArrayPublisher array(*array_space_, scene.light_field);
+  setParameter("dense_maps", 9);  // eight more than the disparity takes
+  startNode(scene.light_field);
+  const DisparityListener disparity(*node_space_, "disparity");
+  const CloudListener points_dense(*node_space_, "points_dense");
+  const StatsListener stats(*node_space_, "stats");
+  ASSERT_TRUE(waitFor([&] { return array.topicsHeard() == array.topics(); }));
+  const bool skipped = waitFor(
+      [&]
+      {
+        const std::size_t before = stats.count();
+        array.publish(nextStamp());
+        return waitFor([&] { return stats.count() > before; }) && stats.newest()->dense_clouds_skipped > 0;
+      });
+  ASSERT_TRUE(skipped) << "a frame is published while the cloud of another is made";
+  EXPECT_EQ(stats.newest()->frames_dropped, 0U) << "it is no dropped set";
+  EXPECT_TRUE(waitFor([&] { return disparity.count() >= stats.count(); })) << "nor without disparity";
+  ASSERT_TRUE(waitFor([&] { return points_dense.count() > 0; })) << "the cloud comes all the same";
+  const auto stamps = disparity.all();
+  const ros::Time made = points_dense.all().front()->header.stamp;
+  EXPECT_TRUE(std::any_of(stamps.begin(), stamps.end(),
+                          [&](const auto& message) { return message->header.stamp == made; }));
+  const std::uint64_t clouds = points_dense.count();
+  EXPECT_TRUE(publishUntil(array, [&] { return stats.newest()->dense_clouds_published >= clouds; }));
+  EXPECT_GT(stats.newest()->dense_cloud_latency_ms, 0.0);
 }
 
 class DepthNodeSizes : public ArrayFixture, public ::testing::WithParamInterface<int>
