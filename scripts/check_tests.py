@@ -28,7 +28,7 @@ COVERED_BY = {
     'format_frames': 'test_format_zoo',
     'format_hci': 'test_format_zoo',
     'format_index': 'test_format_zoo',
-    'format_left_right': 'test_format_zoo',
+    'format_place_words': 'test_format_zoo',
     'format_rows_and_columns': 'test_format_zoo',
     'format_transforms': 'test_planar_rig',
     'node_diagnostics': 'test_depth_node_behaviour',

@@ -75,7 +75,7 @@ const std::vector<DatasetFormat>& datasetFormats()
       {"a folder for each camera or frame", recognizeFolders},
       {"one image with all views", recognizeImage},
       {"Middlebury's calib.txt", recognizeMiddlebury},
-      {"left and right", recognizeLeftRight},
+      {"words for places, as left and right", recognizePlaceWords},
       {"HCI's input_Cam000", recognizeHci},
       {"positions as in out_00_00_1.5_2.5", recognizePositions},
       {"frames and views as in 00000_00", recognizeFramesInNames},

@@ -60,7 +60,7 @@ Recognition recognizeColmap(const FolderListing& listing, const DatasetOptions& 
 Recognition recognizeFramesInNames(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeKitti(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeMiddlebury(const FolderListing& listing, const DatasetOptions& options);
-Recognition recognizeLeftRight(const FolderListing& listing, const DatasetOptions& options);
+Recognition recognizePlaceWords(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeHci(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizePositions(const FolderListing& listing, const DatasetOptions& options);
 Recognition recognizeRowsAndColumns(const FolderListing& listing, const DatasetOptions& options);

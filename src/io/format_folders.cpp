@@ -72,7 +72,7 @@ std::optional<FolderDescription> placeFolders(const FolderListing& views, const 
   DatasetOptions without_frame = options;
   without_frame.frame.reset();
   for (const auto recognize :
-       {recognizeLeftRight, recognizeHci, recognizeRowsAndColumns, recognizeFourDigits, recognizeIndex})
+       {recognizePlaceWords, recognizeHci, recognizeRowsAndColumns, recognizeFourDigits, recognizeIndex})
   {
     Recognition recognition = recognize(views, without_frame);
     if (recognition)

@@ -142,7 +142,7 @@ Recognition recognizeMiddlebury(const FolderListing& listing, const DatasetOptio
   Recognition pair = recognizeIndex(listing, options);
   if (!pair || (*pair).views.size() != 2)
   {
-    pair = recognizeLeftRight(listing, options);
+    pair = recognizePlaceWords(listing, options);
   }
   if (!pair || (*pair).views.size() != 2)
   {
