@@ -160,23 +160,49 @@ std::string contradictionText(const ImageEvidence& evidence, const DatasetOption
          (by_option ? "leave these options out" : "give these options") + " if the result looks wrong.";
 }
 
-/// Thumbnails of the first views of an index; nothing if views are missing or differ in size.
-std::vector<cv::Mat> firstThumbnails(const FolderDescription& description, int count, ViewStore& store)
+/// The views of an index, from the first number to the last.
+struct IndexedViews
 {
-  std::vector<ViewFile> views = description.views;
-  if (static_cast<int>(views.size()) != count)
+  int first = 0;  ///< number
+  int count = 0;  ///< of numbers
+  std::vector<bool> present;
+
+  explicit IndexedViews(const std::vector<ViewFile>& views)
   {
-    return {};
+    const auto by_column = [](const ViewFile& a, const ViewFile& b)
+    { return a.number.column < b.number.column; };
+    first = std::min_element(views.begin(), views.end(), by_column)->number.column;
+    count = std::max_element(views.begin(), views.end(), by_column)->number.column - first + 1;
+    present.assign(static_cast<std::size_t>(count), false);
+    for (const ViewFile& view : views)
+    {
+      present[static_cast<std::size_t>(view.number.column - first)] = true;
+    }
   }
-  std::sort(views.begin(), views.end(),
-            [](const ViewFile& a, const ViewFile& b) { return a.number.column < b.number.column; });
-  views.resize(static_cast<std::size_t>(thumbnailsForRunLength(count)));
+
+  bool hasGaps() const { return std::find(present.begin(), present.end(), false) != present.end(); }
+};
+
+/// Thumbnails of the first views of an index, empty ones where a view is missing; none at all if views differ
+/// in size.
+std::vector<cv::Mat> firstThumbnails(const FolderDescription& description, const IndexedViews& indexed,
+                                     ViewStore& store)
+{
+  std::vector<cv::Mat> thumbnails(static_cast<std::size_t>(thumbnailsForRunLength(indexed.count)));
+  std::vector<ViewFile> views = description.views;
+  const auto place = [&](const ViewFile& view)
+  { return static_cast<std::size_t>(view.number.column - indexed.first); };
+  views.erase(std::remove_if(views.begin(), views.end(),
+                             [&](const ViewFile& view) { return place(view) >= thumbnails.size(); }),
+              views.end());
   store.decode(idsOf(views));
-  std::vector<cv::Mat> thumbnails;
+  cv::Size size;
   for (const ViewFile& view : views)
   {
-    thumbnails.push_back(thumbnailOf(store.image(view.id)));
-    if (thumbnails.back().size() != thumbnails.front().size())
+    cv::Mat& thumbnail = thumbnails[place(view)];
+    thumbnail = thumbnailOf(store.image(view.id));
+    size = size.empty() ? thumbnail.size() : size;
+    if (thumbnail.size() != size)
     {
       return {};  // what is wrong with the sizes is said later
     }
@@ -188,42 +214,80 @@ std::vector<cv::Mat> firstThumbnails(const FolderDescription& description, int c
 struct IndexedGrid
 {
   cv::Size size;
+  int first_place = 0;  ///< of the first view, counted along the rows: not 0 if some before it are missing
   bool alternating = false;  ///< every second row is numbered backwards
 };
 
+IndexedGrid gridOfRun(const RunLength& run, int count)
+{
+  const int places = run.first_place + count;
+  return {cv::Size(run.length, (places + run.length - 1) / run.length), run.first_place, run.alternating};
+}
+
 /// The grid that the images tell, or a guess. Says which it is.
-IndexedGrid foundGrid(FolderDescription& description, int count, ViewStore& store)
+IndexedGrid foundGrid(FolderDescription& description, const IndexedViews& indexed, ViewStore& store)
 {
   constexpr int MIN_VIEWS_OF_GRID = 4;  // 2 x 2
-  if (count < MIN_VIEWS_OF_GRID)
+  if (indexed.count < MIN_VIEWS_OF_GRID)
   {
-    return {guessedGrid(count)};  // a row: nothing to choose from
+    return {guessedGrid(indexed.count)};  // a row: nothing to choose from
   }
+  const bool has_gaps = indexed.hasGaps();
+  const int most_before = description.first_number;
   RunLength run;
-  const std::vector<cv::Mat> thumbnails = firstThumbnails(description, count, store);
+  const std::vector<cv::Mat> thumbnails = firstThumbnails(description, indexed, store);
   if (!thumbnails.empty())
   {
-    run = findRunLength(thumbnails, count);
+    run = has_gaps ? findRunLengthWithGaps(thumbnails, indexed.count, most_before)
+                   : findRunLength(thumbnails, indexed.count);
   }
-  const IndexedGrid grid = {run.length > 0 ? cv::Size(run.length, count / run.length) : guessedGrid(count),
-                            run.alternating};
+  IndexedGrid grid = {guessedGrid(indexed.count)};
+  if (run.length > 0)
+  {
+    grid = gridOfRun(run, indexed.count);
+  }
+  else if (has_gaps)
+  {
+    const SquareWithoutCorners square = findSquareWithoutCorners(indexed.present, most_before);
+    if (square.side > 0)
+    {
+      grid = {cv::Size(square.side, square.side), square.missing_before};
+    }
+  }
   description.notes.push_back(
-      "The " + std::to_string(count) + " views are taken for " +
+      "The " + std::to_string(description.views.size()) + " views are taken for " +
       (grid.size.height == 1 ? "a single row" : "a grid of " + gridText(grid.size) + " (rows x columns)") +
+      (has_gaps ? " with views missing" : "") +
       (grid.alternating ? ", every second row numbered backwards" : "") + ", " +
-      (run.length > 0 ? "as the images tell" : "by their number alone") +
+      (run.length > 0 ? "as the images tell" : "by their numbers alone") +
       "; --grid ROWSxCOLUMNS says otherwise.");
   return grid;
 }
 
 /// A grid that is stated, and whether the images show that every second row runs backwards.
-IndexedGrid statedGrid(FolderDescription& description, const cv::Size& size, int count, ViewStore& store)
+IndexedGrid statedGrid(FolderDescription& description, const cv::Size& size, const IndexedViews& indexed,
+                       ViewStore& store)
 {
   IndexedGrid grid = {size};
-  if (size.width > 1 && size.height > 1 && count == size.area())
+  if (indexed.hasGaps())
   {
-    const std::vector<cv::Mat> thumbnails = firstThumbnails(description, count, store);
-    const RunLength run = thumbnails.empty() ? RunLength() : findRunLength(thumbnails, count);
+    const int missing = size.area() - indexed.count;
+    const std::vector<cv::Mat> thumbnails = firstThumbnails(description, indexed, store);
+    const RunLength run =
+        thumbnails.empty()
+            ? RunLength()
+            : findRunLengthWithGaps(thumbnails, indexed.count, std::min(missing, description.first_number));
+    const SquareWithoutCorners square =
+        findSquareWithoutCorners(indexed.present, std::min(missing, description.first_number));
+    grid.first_place = run.length == size.width    ? run.first_place
+                       : square.side == size.width ? square.missing_before
+                                                   : 0;
+    return grid;
+  }
+  if (size.width > 1 && size.height > 1 && indexed.count == size.area())
+  {
+    const std::vector<cv::Mat> thumbnails = firstThumbnails(description, indexed, store);
+    const RunLength run = thumbnails.empty() ? RunLength() : findRunLength(thumbnails, indexed.count);
     grid.alternating = run.alternating && run.length == size.width;
     if (grid.alternating)
     {
@@ -241,26 +305,22 @@ void settleGrid(FolderDescription& description, const DatasetOptions& options, V
   {
     return;
   }
-  std::vector<ViewFile>& views = description.views;
-  const auto by_column = [](const ViewFile& a, const ViewFile& b)
-  { return a.number.column < b.number.column; };
-  const int first = std::min_element(views.begin(), views.end(), by_column)->number.column;
-  const int count = std::max_element(views.begin(), views.end(), by_column)->number.column - first + 1;
+  const IndexedViews indexed(description.views);
   const std::optional<cv::Size> stated = options.grid       ? options.grid
                                          : description.grid ? std::make_optional(description.grid->size())
                                                             : std::nullopt;
   const IndexedGrid found =
-      stated ? statedGrid(description, *stated, count, store) : foundGrid(description, count, store);
+      stated ? statedGrid(description, *stated, indexed, store) : foundGrid(description, indexed, store);
   const cv::Size grid = found.size;
-  if (count > grid.area())
+  if (found.first_place + indexed.count > grid.area())
   {
-    throw InputError("The numbers of the views span " + std::to_string(count) + " places, but a grid of " +
-                     gridText(grid) + " has " + std::to_string(grid.area()) +
+    throw InputError("The numbers of the views span " + std::to_string(indexed.count) +
+                     " places, but a grid of " + gridText(grid) + " has " + std::to_string(grid.area()) +
                      "; --grid ROWSxCOLUMNS says which one it is.");
   }
-  for (ViewFile& view : views)
+  for (ViewFile& view : description.views)
   {
-    const int index = view.number.column - first;
+    const int index = found.first_place + view.number.column - indexed.first;
     const GridPosition place{index / grid.width, index % grid.width};
     const bool backwards = found.alternating && place.row % 2 == 1;
     view.number = {place.row, backwards ? grid.width - 1 - place.column : place.column};

@@ -90,6 +90,7 @@ struct FolderDescription
   std::string format;
   PlaceClaim place_claim = PlaceClaim::Stated;
   std::vector<ViewFile> views;
+  int first_number = 0;  ///< PlaceClaim::SingleNumber: the least number in the names, at most MAX_NUMBER
   std::optional<cv::Rect> grid;           ///< numbers of all views there could be: x, width are columns
   std::optional<GridPosition> reference;  ///< the view of the truth; the middle of the grid if absent
   std::optional<Flip> flip;               ///< found from the positions, or None, if absent

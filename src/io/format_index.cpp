@@ -65,6 +65,7 @@ Recognition recognizeIndex(const FolderListing& listing, const DatasetOptions& /
   FolderDescription description;
   description.format = "index";
   description.place_claim = PlaceClaim::SingleNumber;
+  description.first_number = by_order ? 0 : static_cast<int>(std::clamp<long long>(first, 0, MAX_NUMBER));
   description.notes = leftOutNotes(names->left_out);
   for (std::size_t i = 0; i < files.size(); ++i)
   {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "io/scene_folders.h"
@@ -214,6 +216,34 @@ cv::Mat tiling(const Scene& scene)
   return image;
 }
 
+std::vector<Animal> namedByPlaceWords()
+{
+  const auto words = [](std::vector<std::string> rows, std::vector<std::string> columns)
+  {
+    const cv::Size size(static_cast<int>(columns.size()), static_cast<int>(rows.size()));
+    return grid(
+        size, [=](int r, int c)
+        { return rows[static_cast<std::size_t>(r)] + columns[static_cast<std::size_t>(c)] + ".png"; });
+  };
+  const cv::Size three(3, 1);
+  const cv::Size column(1, 2);
+  return {
+      {"left, center and right", three, "place words", words({"cam_"}, {"left", "center", "right"})},
+      {"left, middle and right", three, "place words", words({""}, {"left", "middle", "right"})},
+      {"l, c and r", three, "place words", words({"scene1_"}, {"l", "c", "r"})},
+      {"L, M and R of two frames", three, "place words",
+       both(words({"0001_"}, {"L", "M", "R"}), words({"0002_"}, {"L", "M", "R"}))},
+      {"folders left, center and right", three, "place words of folders",
+       words({""}, {"left/0001", "center/0001", "right/0001"})},
+      {"top and bottom", column, "stereo", words({"top", "bottom"}, {"_rgb"})},
+      {"top and bottom, left and right",
+       {2, 2},
+       "place words",
+       words({"top_", "bottom_"}, {"left", "right"})},
+      {"nw to se", {2, 2}, "place words", words({"n", "s"}, {"w", "e"})},
+  };
+}
+
 /// All views of a row from the bottom left on.
 cv::Mat quilt(const Scene& scene)
 {
@@ -247,7 +277,8 @@ std::vector<Animal> singleImages()
 std::vector<Animal> allAnimals()
 {
   std::vector<Animal> animals;
-  for (const auto& some : {namedByRowAndColumn(), namedByIndex(), namedByPosition(), pairs(), singleImages()})
+  for (const auto& some : {namedByRowAndColumn(), namedByIndex(), namedByPosition(), pairs(),
+                           namedByPlaceWords(), singleImages()})
   {
     animals.insert(animals.end(), some.begin(), some.end());
   }
@@ -299,6 +330,74 @@ TEST(FormatZoo, SaysWhatWasLeftOutAndWhichFrameIsRead)
   const Dataset dataset = readDataset(folder.path());
   ASSERT_EQ(dataset.notes.size(), 1U);
   EXPECT_NE(dataset.notes.front().find("1 more are left out"), std::string::npos) << dataset.notes.front();
+}
+
+TEST(FormatZoo, PointsOfTheCompassMakeACross)
+{
+  const TemporaryFolder folder;
+  for (const auto& [name, row, column] :
+       {std::make_tuple("north", 1, 2), std::make_tuple("west", 2, 1), std::make_tuple("center", 2, 2),
+        std::make_tuple("east", 2, 3), std::make_tuple("south", 3, 2)})
+  {
+    write(folder, std::string(name) + ".png", RenderedScene::view(row, column));
+  }
+  const Dataset dataset = readDataset(folder.path());
+  EXPECT_EQ(dataset.format, "place words");
+  ASSERT_EQ(dataset.light_field.views.size(), 5U);
+  EXPECT_EQ(dataset.light_field.reference_index, 2U);
+  const View* const north = viewAt(dataset.light_field, 0.0, -1.0);
+  ASSERT_TRUE(north != nullptr);
+  EXPECT_EQ(cv::norm(north->image, RenderedScene::view(1, 2), cv::NORM_INF), 0.0);
+}
+
+TEST(FormatZoo, AnIndexWithViewsMissingIsLaidOutByTheImages)
+{
+  struct Missing
+  {
+    int first_number;
+    std::vector<int> places;
+  };
+  for (const Missing& missing :
+       {Missing{0, {0, 4, 20, 24}}, Missing{1, {0, 4, 20, 24}}, Missing{0, {0, 4, 20}},
+        Missing{0, {4, 20, 24}}, Missing{0, {7}}, Missing{7, {0, 12, 13, 24}}})
+  {
+    SCOPED_TRACE(std::to_string(missing.first_number) + " " + std::to_string(missing.places.size()));
+    const TemporaryFolder folder;
+    for (int place = 0; place < SIDE * SIDE; ++place)
+    {
+      if (std::find(missing.places.begin(), missing.places.end(), place) == missing.places.end())
+      {
+        write(folder, padded(missing.first_number + place, 3) + ".png",
+              RenderedScene::view(place / SIDE, place % SIDE));
+      }
+    }
+    const Dataset dataset = readDataset(folder.path());
+    EXPECT_TRUE(dataset.warnings.empty());
+    ASSERT_EQ(dataset.light_field.views.size(), SIDE * SIDE - missing.places.size());
+    for (const View& view : dataset.light_field.views)
+    {
+      const int row = view.grid.row;
+      const int column = view.grid.column;
+      ASSERT_LT(std::max(row, column), SIDE);
+      EXPECT_EQ(cv::norm(view.image, RenderedScene::view(row, column), cv::NORM_INF), 0.0)
+          << row << " " << column;
+    }
+  }
+}
+
+TEST(FormatZoo, ARowWithAViewMissingIsARow)
+{
+  const TemporaryFolder folder;
+  for (int column = 0; column < testing::LONG_ROW; ++column)
+  {
+    if (column != 3)
+    {
+      write(folder, padded(column, 2) + ".png", RenderedScene::view(2, column));
+    }
+  }
+  const Dataset dataset = readDataset(folder.path());
+  ASSERT_EQ(dataset.light_field.views.size(), 8U);
+  EXPECT_EQ(dataset.light_field.views.back().grid, (GridPosition{0, 8}));
 }
 
 }  // namespace

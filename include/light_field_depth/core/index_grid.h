@@ -33,6 +33,8 @@ struct RunLength
   bool alternating = false;  ///< every second run is numbered backwards
   double dip = 1.0;          ///< see IndexGridOptions::max_dip; of the best length
   double fold = 1.0;         ///< see IndexGridOptions::max_fold; of the best length
+  /// Place of the first view in its run: not 0 if the views before it are missing.
+  int first_place = 0;
 };
 
 /// How many thumbnails findRunLength() needs of so many views: the first ones. All runs but very long ones
@@ -49,6 +51,27 @@ cv::Mat thumbnailOf(const cv::Mat& view);
 /// @param views in all; the length divides it
 RunLength findRunLength(const std::vector<cv::Mat>& thumbnails, int views,
                         const IndexGridOptions& options = {});
+
+/// The same where views are missing, so that any length may be right, and the first view may stand inside of
+/// its run. Does not look for runs that are numbered backwards.
+/// @param thumbnails empty for numbers without a view
+/// @param views from the first number to the last
+/// @param max_missing_before the most views that may be missing before the first one
+RunLength findRunLengthWithGaps(const std::vector<cv::Mat>& thumbnails, int views, int max_missing_before,
+                                const IndexGridOptions& options = {});
+
+/// A square of which nothing but corner views is missing, as plenoptic cameras leave them dark: its side, and
+/// how many views are missing before the first one (0 or 1).
+struct SquareWithoutCorners
+{
+  int side = 0;  ///< 0: it is none
+  int missing_before = 0;
+};
+
+/// @param present from the first view to the last: whether there is a view of this number; at least one
+/// inside
+///   is missing
+SquareWithoutCorners findSquareWithoutCorners(const std::vector<bool>& present, int max_missing_before);
 
 }  // namespace light_field_depth
 

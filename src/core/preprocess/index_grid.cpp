@@ -23,6 +23,11 @@ double difference(const std::vector<cv::Mat>& thumbnails, int i, int j)
   return cv::norm(a, thumbnails[static_cast<std::size_t>(j)], cv::NORM_L1) / static_cast<double>(a.total());
 }
 
+bool areThere(const std::vector<cv::Mat>& thumbnails, int i, int j)
+{
+  return !thumbnails[static_cast<std::size_t>(i)].empty() && !thumbnails[static_cast<std::size_t>(j)].empty();
+}
+
 /// Mean absolute differences of the views so many numbers apart; 0 for none.
 std::vector<double> differencesByLag(const std::vector<cv::Mat>& thumbnails)
 {
@@ -31,11 +36,16 @@ std::vector<double> differencesByLag(const std::vector<cv::Mat>& thumbnails)
   for (int lag = 1; lag < count; ++lag)
   {
     double sum = 0.0;
+    int pairs = 0;
     for (int i = 0; i + lag < count; ++i)
     {
-      sum += difference(thumbnails, i, i + lag);
+      if (areThere(thumbnails, i, i + lag))
+      {
+        sum += difference(thumbnails, i, i + lag);
+        ++pairs;
+      }
     }
-    differences[static_cast<std::size_t>(lag)] = sum / (count - lag);
+    differences[static_cast<std::size_t>(lag)] = pairs > 0 ? sum / pairs : 0.0;
   }
   return differences;
 }
@@ -45,7 +55,29 @@ double dipAt(const std::vector<double>& by_lag, int length)
 {
   const auto lag = static_cast<std::size_t>(length);
   const double beside = by_lag[lag - 1] + by_lag[lag + 1];
-  return beside > 0.0 ? 2.0 * by_lag[lag] / beside : 1.0;
+  const bool known = by_lag[lag - 1] > 0.0 && by_lag[lag + 1] > 0.0;
+  return known ? 2.0 * by_lag[lag] / beside : 1.0;
+}
+
+/// Difference of neighbours across the ends of runs over that of others, if the first view stands so many
+/// places behind the beginning of its run.
+double jumpAt(const std::vector<cv::Mat>& thumbnails, int length, int first_place)
+{
+  double across = 0.0;
+  double inside = 0.0;
+  int ends = 0;
+  int others = 0;
+  for (int i = 0; i + 1 < static_cast<int>(thumbnails.size()); ++i)
+  {
+    if (!areThere(thumbnails, i, i + 1))
+    {
+      continue;
+    }
+    const bool is_end = (i + 1 + first_place) % length == 0;
+    (is_end ? across : inside) += difference(thumbnails, i, i + 1);
+    ++(is_end ? ends : others);
+  }
+  return ends > 0 && inside > 0.0 ? across / ends / (inside / others) : 0.0;
 }
 
 /// IndexGridOptions::max_fold of a length.
@@ -119,6 +151,71 @@ RunLength findRunLength(const std::vector<cv::Mat>& thumbnails, int views, const
     return by_fold;
   }
   return {is_row ? views : 0, false, by_dip.dip, by_fold.fold};
+}
+
+RunLength findRunLengthWithGaps(const std::vector<cv::Mat>& thumbnails, int views, int max_missing_before,
+                                const IndexGridOptions& options)
+{
+  const std::vector<double> by_lag = differencesByLag(thumbnails);
+  RunLength best;
+  bool is_row = by_lag.size() > 2 && by_lag[1] > 0.0 && by_lag[2] >= options.min_growth_of_row * by_lag[1];
+  // Of two rows with one view missing, fewer than half are in one.
+  const int longest = std::min((views + 1) / 2, static_cast<int>(thumbnails.size()) - 2);
+  for (int length = 2; length <= longest; ++length)
+  {
+    const double dip = dipAt(by_lag, length);
+    is_row = is_row && dip >= options.min_of_row;
+    if (dip < best.dip)
+    {
+      best.length = length;
+      best.dip = dip;
+    }
+  }
+  if (best.dip > options.max_dip)
+  {
+    best.length = is_row ? views : 0;
+    return best;
+  }
+  double largest_jump = 0.0;
+  for (int place = 0; place <= std::min(max_missing_before, best.length - 1); ++place)
+  {
+    const double jump = jumpAt(thumbnails, best.length, place);
+    if (jump > largest_jump)
+    {
+      largest_jump = jump;
+      best.first_place = place;
+    }
+  }
+  return best;
+}
+
+SquareWithoutCorners findSquareWithoutCorners(const std::vector<bool>& present, int max_missing_before)
+{
+  const int count = static_cast<int>(present.size());
+  for (int before = 0; before <= std::min(1, max_missing_before); ++before)
+  {
+    for (int behind = 0; behind <= 1; ++behind)
+    {
+      const int places = before + count + behind;
+      const int side = static_cast<int>(std::lround(std::sqrt(places)));
+      if (side * side != places)
+      {
+        continue;
+      }
+      bool only_corners = true;
+      for (int i = 0; i < count; ++i)
+      {
+        const int place = before + i;
+        only_corners = only_corners &&
+                       (present[static_cast<std::size_t>(i)] || place == side - 1 || place == places - side);
+      }
+      if (only_corners)
+      {
+        return {side, before};
+      }
+    }
+  }
+  return {};
 }
 
 }  // namespace light_field_depth

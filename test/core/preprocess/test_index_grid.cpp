@@ -87,6 +87,34 @@ TEST(IndexGrid, ViewsThatAreAllAlikeTellNothing)
   EXPECT_EQ(findRunLength(inOrder(9, [](int) { return 0; }), 9).length, 0);
 }
 
+TEST(IndexGrid, FindsTheLengthOfARowAndWhereItBeginsWithViewsMissing)
+{
+  std::vector<cv::Mat> all = thumbnails();
+  for (const int corner : {SIDE - 1, SIDE * (SIDE - 1)})
+  {
+    all[static_cast<std::size_t>(corner)] = cv::Mat();
+  }
+  const std::vector<cv::Mat> without_ends(all.begin() + 1, all.end() - 1);
+  const RunLength run = findRunLengthWithGaps(without_ends, SIDE * SIDE - 2, 1);
+  EXPECT_EQ(run.length, SIDE);
+  EXPECT_EQ(run.first_place, 1);
+  all[0] = cv::Mat();
+  const std::vector<cv::Mat> without_start(all.begin() + 2, all.end());
+  EXPECT_EQ(findRunLengthWithGaps(without_start, SIDE * SIDE - 2, SIDE).first_place, 2);
+  EXPECT_EQ(findRunLengthWithGaps(without_start, SIDE * SIDE - 2, 0).first_place, 0);
+}
+
+TEST(IndexGrid, ASquareWithoutCornersIsToldByItsNumbers)
+{
+  std::vector<bool> present(23, true);  // of 5 x 5 from the second to the last but one
+  present[3] = present[19] = false;
+  EXPECT_EQ(findSquareWithoutCorners(present, 1).side, 5);
+  EXPECT_EQ(findSquareWithoutCorners(present, 1).missing_before, 1);
+  EXPECT_EQ(findSquareWithoutCorners(present, 0).side, 0);
+  present[10] = false;
+  EXPECT_EQ(findSquareWithoutCorners(present, 1).side, 0);
+}
+
 TEST(IndexGrid, AFewThumbnailsTellTheRowsOfManyViews)
 {
   EXPECT_EQ(thumbnailsForRunLength(81), 38);
