@@ -76,6 +76,8 @@ void centre(Patch& patch)
   }
 }
 
+}  // namespace
+
 float contrastOf(const Patch& patch)
 {
   float sum = 0.0F;
@@ -85,8 +87,6 @@ float contrastOf(const Patch& patch)
   }
   return sum / static_cast<float>(PATCH_SIZE);
 }
-
-}  // namespace
 
 float differenceOf(const Patch& a, const Patch& b)
 {

@@ -14,6 +14,9 @@ namespace light_field_depth
 /// Brightness of 3 x 3 pixels, two pixels apart, without its mean.
 using Patch = std::array<float, 9>;
 
+/// Mean absolute value in grey levels.
+float contrastOf(const Patch& patch);
+
 /// Mean absolute difference in grey levels.
 float differenceOf(const Patch& a, const Patch& b);
 

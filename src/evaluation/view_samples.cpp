@@ -54,12 +54,39 @@ std::vector<std::size_t> chosenViews(const LightField& light_field)
 /// No difference of two patches.
 constexpr float OUTSIDE = -1.0F;
 
+float median(std::vector<float>& values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What makes the contrast of a view that of the reference: with half the exposure it is 2.
+float gainOf(const View& view, const std::vector<TexturedPixel>& pixels)
+{
+  constexpr float MAX_GAIN = 4.0F;  // two stops; beyond them noise or white is all that is left
+  std::vector<float> of_reference;
+  std::vector<float> of_view;
+  for (const TexturedPixel& pixel : pixels)
+  {
+    Patch seen{};
+    if (readSeenPatch(view, pixel, view.steps, {}, seen))
+    {
+      of_reference.push_back(pixel.contrast);
+      of_view.push_back(contrastOf(seen));
+    }
+  }
+  const float contrast = of_view.empty() ? 0.0F : median(of_view);
+  return contrast > 0.0F ? std::clamp(median(of_reference) / contrast, 1.0F / MAX_GAIN, MAX_GAIN) : 1.0F;
+}
+
 /// @param mismatches one for each pixel: difference in levels, or OUTSIDE
 ViewAgreement compare(const View& view, const std::vector<TexturedPixel>& pixels, float noise,
                       std::vector<float>& mismatches)
 {
   ViewAgreement agreement;
   ShiftEquations equations;
+  const float gain = gainOf(view, pixels);
   for (std::size_t i = 0; i < pixels.size(); ++i)
   {
     const TexturedPixel& pixel = pixels[i];
@@ -69,6 +96,7 @@ ViewAgreement compare(const View& view, const std::vector<TexturedPixel>& pixels
     {
       continue;
     }
+    std::transform(seen.begin(), seen.end(), seen.begin(), [gain](float value) { return gain * value; });
     ++agreement.seen;
     mismatches[i] = differenceOf(seen, pixel.patch);
     if (mismatches[i] <= tolerance(pixel, noise))

@@ -20,7 +20,7 @@ struct Unreadable
   const char* remedy;
 };
 
-constexpr std::array<Unreadable, 20> UNREADABLE = {{
+constexpr std::array<Unreadable, 33> UNREADABLE = {{
     {".h5", "is HDF5: write its views as PNG files"},
     {".hdf5", "is HDF5: write its views as PNG files"},
     {".mat", "is MATLAB's: write its views as PNG files"},
@@ -33,9 +33,22 @@ constexpr std::array<Unreadable, 20> UNREADABLE = {{
     {".dng", "is raw: develop it and export the views"},
     {".cr2", "is raw: develop it and export the views"},
     {".nef", "is raw: develop it and export the views"},
+    {".cr3", "is raw: develop it and export the views"},
+    {".arw", "is raw: develop it and export the views"},
+    {".orf", "is raw: develop it and export the views"},
+    {".raf", "is raw: develop it and export the views"},
+    {".rw2", "is raw: develop it and export the views"},
+    {".heic", "is HEIC: convert it to PNG or JPEG"},
+    {".heif", "is HEIF: convert it to PNG or JPEG"},
+    {".avif", "is AVIF: convert it to PNG or JPEG"},
+    {".jxl", "is JPEG XL: convert it to PNG or JPEG"},
+    {".svg", "is a drawing: convert it to PNG"},
+    {".psd", "is Photoshop's: export it as PNG"},
     {".mp4", "is a video: extract its frames as PNG files"},
     {".avi", "is a video: extract its frames as PNG files"},
     {".mov", "is a video: extract its frames as PNG files"},
+    {".mkv", "is a video: extract its frames as PNG files"},
+    {".webm", "is a video: extract its frames as PNG files"},
     {".gif", "is a GIF: convert it to PNG"},
     {".jp2", "is JPEG 2000: convert it to PNG"},
     {".hdr", "is Radiance HDR: convert it to EXR or PNG"},

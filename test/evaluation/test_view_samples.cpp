@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "support/synthetic_scene.h"
 
@@ -44,6 +45,23 @@ TEST(ViewSamples, TheRightMapIsWhatAllViewsAgreeWith)
   }
   ASSERT_EQ(samples.disparities.size(), static_cast<std::size_t>(samples.textured));
   EXPECT_NEAR(samples.disparities.front(), 0.8F, 1e-3F);
+}
+
+TEST(ViewSamples, AViewOfAnotherExposureAgreesAsWell)
+{
+  LightField uneven = scene().light_field;
+  for (const auto& [index, gain] : {std::make_pair(std::size_t{0}, 0.5), std::make_pair(std::size_t{8}, 1.5)})
+  {
+    cv::Mat changed;  // the scene's own image stays as it is
+    uneven.views[index].image.convertTo(changed, -1, gain);
+    uneven.views[index].image = changed;
+  }
+  ThreadPool pool(2);
+  for (const ViewAgreement& view : sampleViews(uneven, scene().truth, pool).views)
+  {
+    EXPECT_GT(view.share(), 0.9) << view.view_index;
+    EXPECT_LT(cv::norm(view.shift_px), 0.08) << view.view_index;
+  }
 }
 
 TEST(ViewSamples, AWrongMapIsNot)

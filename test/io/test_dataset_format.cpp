@@ -17,6 +17,7 @@ TEST(DatasetFormat, SaysWhatToDoWithFilesThatAreNoImages)
 {
   for (const auto& [file, word] :
        {std::make_pair("buddha.h5", "HDF5"), std::make_pair("IMG_0001.LFP", "plenoptic"),
+        std::make_pair("IMG_0001.HEIC", "HEIC"), std::make_pair("a.jxl", "JPEG XL"),
         std::make_pair("LF.mat", "MATLAB"), std::make_pair("scene.mp4", "video")})
   {
     const TemporaryFolder folder;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/multiview/multiview_estimator.h"
+#include "light_field_depth/core/exposure.h"
 #include "light_field_depth/core/noise_estimate.h"
 
 namespace light_field_depth
@@ -297,7 +298,7 @@ DisparityRange rangeOf(const cv::Mat& disparity)
 
 LightField inGrey(const LightField& light_field)
 {
-  LightField grey = toEightBit(light_field);
+  LightField grey = light_field;
   for (View& view : grey.views)
   {
     view.image = toGrey(view.image);
@@ -309,12 +310,15 @@ LightField inGrey(const LightField& light_field)
 
 DepthSign findDepthSign(const LightField& light_field, ThreadPool& pool, const DepthSignOptions& options)
 {
-  const LightField near = nearViews(light_field);
-  const LightField grey = inGrey(near);
-  if (!lineOf(grey, true, 0.0) && !lineOf(grey, false, 0.0))
+  LightField near = nearViews(light_field);
+  if (!lineOf(near, true, 0.0) && !lineOf(near, false, 0.0))
   {
     return {};
   }
+  near = toEightBit(near);
+  // What moves over what shows in brightness, which has to be the same in all views.
+  near = compensateExposure(near, estimateExposure(near, pool), pool);
+  const LightField grey = inGrey(near);
   const cv::Mat disparity = symmetricDisparity(near, pool);
   const DisparityRange range = rangeOf(disparity);
   const double max_steps = MAX_RELATIVE_MOVE_PX / std::max(range.max - range.min, 1e-3F);

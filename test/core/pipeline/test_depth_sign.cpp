@@ -56,6 +56,23 @@ TEST(DepthSign, OcclusionsTellNearFromFar)
   EXPECT_LT(wrong.significance, -3.0);
 }
 
+TEST(DepthSign, ExposuresThatDifferDoNotChangeIt)
+{
+  ThreadPool pool(2);
+  LightField uneven = squares();
+  for (View& view : uneven.views)
+  {
+    // What lies to the left and above is dark, what lies to the right and below is bright.
+    const double gain = 1.0 + 0.15 * (view.steps.x + view.steps.y);
+    cv::Mat changed;
+    view.image.convertTo(changed, -1, 0.75 * gain);
+    view.image = changed;
+  }
+  const DepthSign sign = findDepthSign(uneven, pool);
+  EXPECT_TRUE(sign.decided) << sign.votes << " " << sign.share << " " << sign.significance;
+  EXPECT_FALSE(sign.reversed);
+}
+
 TEST(DepthSign, AFlatSceneTellsNothing)
 {
   testing::SceneSettings settings;
