@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/image_files.h"
@@ -56,6 +57,22 @@ constexpr std::array<Unreadable, 33> UNREADABLE = {{
     {".bag", "is a ROS bag: play it to the node"},
 }};
 
+/// Names of images that are no files: links to nothing, as copies without what they point to leave them.
+std::vector<fs::path> brokenImages(const FolderListing& listing)
+{
+  std::vector<fs::path> broken;
+  std::copy_if(listing.others.begin(), listing.others.end(), std::back_inserter(broken), isImageFile);
+  return broken;
+}
+
+std::string brokenText(const std::vector<fs::path>& broken)
+{
+  const std::string name = "'" + broken.front().filename().string() + "'";
+  return broken.size() == 1
+             ? name + " is a link to nothing, or no file"
+             : name + " and " + std::to_string(broken.size() - 1) + " more are links to nothing, or no files";
+}
+
 /// Which file is there that is almost what is wanted; empty if there is none.
 std::string unreadableText(const std::vector<fs::path>& files)
 {
@@ -102,12 +119,17 @@ const std::vector<DatasetFormat>& datasetFormats()
 FolderDescription describeFolder(const fs::path& folder, const DatasetOptions& options)
 {
   const FolderListing listing = listFolder(folder);
+  const std::vector<fs::path> broken = brokenImages(listing);
   std::string tried;
   for (const DatasetFormat& format : datasetFormats())
   {
     Recognition recognition = format.recognize(listing, options);
     if (recognition)
     {
+      if (!broken.empty())
+      {
+        (*recognition).warnings.push_back(brokenText(broken) + "; copy what is missing if it is a view.");
+      }
       return std::move(*recognition);
     }
     tried.append(tried.empty() ? "" : "; ")
@@ -119,7 +141,8 @@ FolderDescription describeFolder(const fs::path& folder, const DatasetOptions& o
   if (listing.images.empty() && listing.folders.empty())
   {
     throw InputError("The folder '" + folder.string() + "' has no images in it (" + imageFormatsText() + ")" +
-                     unreadableText(listing.others) + "; name the folder that holds the views.");
+                     (broken.empty() ? unreadableText(listing.others) : "; " + brokenText(broken)) +
+                     "; name the folder that holds the views.");
   }
   const std::string first =
       listing.images.empty() ? "" : " (the first is '" + listing.images.front().filename().string() + "')";

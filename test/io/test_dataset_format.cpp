@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "io/dataset_format.h"
 #include "io/scene_folders.h"
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/dataset.h"
@@ -38,6 +39,23 @@ TEST(DatasetFormat, ListsWhatWasTried)
   {
     EXPECT_NE(message.find(part), std::string::npos) << message;
   }
+}
+
+TEST(DatasetFormat, LinksToNothingAreNamed)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("nowhere.png", folder / "a_00_02.png");
+  EXPECT_NE(testing::messageOf<InputError>([&] { describeFolder(folder.path(), {}); })
+                .find("'a_00_02.png' is a link to nothing"),
+            std::string::npos);
+  for (const char* const name : {"a_00_00.png", "a_00_01.png"})
+  {
+    folder.write(name, "");
+  }
+  const FolderDescription description = describeFolder(folder.path(), {});
+  EXPECT_EQ(description.views.size(), 2U);
+  ASSERT_EQ(description.warnings.size(), 1U);
+  EXPECT_NE(description.warnings.front().find("a link to nothing"), std::string::npos);
 }
 
 }  // namespace
