@@ -70,19 +70,49 @@ struct Side
   }
 };
 
+/// Least and largest disparity in the 3 x 3 pixels about those of some rows.
+class Extents
+{
+public:
+  Extents(const cv::Mat& disparity, int first_row, int end_row)
+      : first_row_(first_row), low_(end_row - first_row, disparity.cols, CV_32FC1),
+        high_(low_.size(), CV_32FC1)
+  {
+    std::vector<float> columns(extentScratch(disparity.cols));
+    for (int y = first_row; y < end_row; ++y)
+    {
+      ExtentRow row = extentRowOf(disparity, y, 1);
+      row.columns = columns.data();
+      row.low = low_.ptr<float>(y - first_row);
+      row.high = high_.ptr<float>(y - first_row);
+      findExtents(row);
+    }
+  }
+
+  float low(int x, int y) const { return low_.at<float>(y - first_row_, x); }
+  float high(int x, int y) const { return high_.at<float>(y - first_row_, x); }
+
+private:
+  int first_row_;
+  cv::Mat low_;
+  cv::Mat high_;
+};
+
 class BoundaryPixelDecision
 {
 public:
-  BoundaryPixelDecision(const PlanarImage& image, const cv::Mat& disparity,
+  /// @param extents of the rows that are decided and RADIUS rows about them
+  BoundaryPixelDecision(const PlanarImage& image, const cv::Mat& disparity, const Extents& extents,
                         const BoundaryPixelSettings& settings)
-      : image_(image), disparity_(disparity), settings_(settings)
+      : image_(image), disparity_(disparity), extents_(extents), settings_(settings)
   {
   }
 
   /// The disparity that pixel (x, y) should have, at least RADIUS + 1 pixels inside the image.
-  /// @param low, high of the disparities in 3 x 3 pixels
-  float decide(int x, int y, float low, float high) const
+  float decide(int x, int y) const
   {
+    const float low = extents_.low(x, y);
+    const float high = extents_.high(x, y);
     const float here = disparity_.at<float>(y, x);
     const float middle = 0.5F * (low + high);
     if (high - low < MIN_JUMP_PX || here <= middle)
@@ -96,23 +126,9 @@ public:
   }
 
 private:
-  void range(int x, int y, float& low, float& high) const
-  {
-    low = high = disparity_.at<float>(y, x);
-    for (int dy = -1; dy <= 1; ++dy)
-    {
-      const auto* const row = disparity_.ptr<float>(y + dy) + x;
-      low = std::min({low, row[-1], row[0], row[1]});
-      high = std::max({high, row[-1], row[0], row[1]});
-    }
-  }
-
   bool touchesOtherSide(int x, int y, float middle) const
   {
-    float low = 0.0F;
-    float high = 0.0F;
-    range(x, y, low, high);
-    return low <= middle && high > middle;
+    return extents_.low(x, y) <= middle && extents_.high(x, y) > middle;
   }
 
   void collect(int x, int y, float middle, Side& near, Side& far) const
@@ -169,6 +185,7 @@ private:
 
   const PlanarImage& image_;
   const cv::Mat& disparity_;
+  const Extents& extents_;
   const BoundaryPixelSettings& settings_;
 };
 
@@ -179,25 +196,17 @@ void decideBoundaryPixels(const PlanarImage& image, const BoundaryPixelSettings&
 {
   constexpr int margin = RADIUS + 1;
   disparity.copyTo(scratch);
-  const BoundaryPixelDecision decision(image, scratch, settings);
   pool.parallelFor(margin, disparity.rows - margin, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
-                     std::vector<float> columns(extentScratch(disparity.cols));
-                     std::vector<float> low(static_cast<std::size_t>(disparity.cols));
-                     std::vector<float> high(low);
+                     const Extents extents(scratch, first - RADIUS, last + RADIUS);
+                     const BoundaryPixelDecision decision(image, scratch, extents, settings);
                      for (int y = first; y < last; ++y)
                      {
-                       ExtentRow extents = extentRowOf(scratch, y, 1);
-                       extents.columns = columns.data();
-                       extents.low = low.data();
-                       extents.high = high.data();
-                       findExtents(extents);
                        auto* const row = disparity.ptr<float>(y);
                        for (int x = margin; x < disparity.cols - margin; ++x)
                        {
-                         const auto at = static_cast<std::size_t>(x);
-                         row[x] = decision.decide(x, y, low[at], high[at]);
+                         row[x] = decision.decide(x, y);
                        }
                      }
                    });
