@@ -367,8 +367,13 @@ void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasur
       unit;
   const StageTimer timer(context, "left_right_check");
   const View& other = multiview::otherView(chosen);
+  multiview::LeftRightSettings check;
+  if (isLarge(chosen))
+  {
+    check.max_distance_px *= 2.0F;  // a quarter of the resolution has labels twice as far apart
+  }
   const cv::Mat unconfirmed =
-      multiview::findUnconfirmed(estimate.disparity, other, turned_disparity, {}, context.pool);
+      multiview::findUnconfirmed(estimate.disparity, other, turned_disparity, check, context.pool);
   multiview::BackgroundFillSettings fill;
   if (options_.preset == MultiviewPreset::Realtime)
   {
