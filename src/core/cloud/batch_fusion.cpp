@@ -14,12 +14,7 @@ BatchFusion::BatchFusion(const LightField& light_field, const std::vector<ViewDi
 
 void BatchFusion::run(float min_confidence, const ForView& for_view, const ForBatch& for_batch) const
 {
-  struct Slot
-  {
-    FusionScratch scratch;
-    FusedView fused;
-  };
-  std::vector<Slot> slots(slots_);
+  std::vector<FusionScratch> scratch(slots_);
   const std::size_t views = light_field_.views.size();
   for (std::size_t first = 0; first < views; first += slots_)
   {
@@ -30,9 +25,10 @@ void BatchFusion::run(float min_confidence, const ForView& for_view, const ForBa
                         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
                         {
                           const View& view = light_field_.views[first + i];
-                          fuseView(surfaces_, view, tolerance_, min_confidence, slots[i].scratch,
-                                   slots[i].fused);
-                          for_view(view, i, slots[i].fused);
+                          for_view(view, i,
+                                   [&](const FusedRowSink& sink) {
+                                     fuseView(surfaces_, view, tolerance_, min_confidence, scratch[i], sink);
+                                   });
                         }
                       });
     for_batch(first, count);

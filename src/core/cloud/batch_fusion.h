@@ -17,8 +17,10 @@ namespace light_field_depth::cloud
 class BatchFusion
 {
 public:
+  /// Hands the rows of a view to a sink.
+  using FusedRows = std::function<void(const FusedRowSink& sink)>;
   /// What is done with a view of the light field, on any thread. @param slot of the batch
-  using ForView = std::function<void(const View& view, std::size_t slot, const FusedView& fused)>;
+  using ForView = std::function<void(const View& view, std::size_t slot, const FusedRows& rows)>;
   /// What is done with a batch, between batches: the views first .. first + count - 1 are in slots 0 .. count
   /// - 1.
   using ForBatch = std::function<void(std::size_t first, std::size_t count)>;

@@ -53,7 +53,7 @@ void projectRowSimd(const ProjectedRow& row)
             hn::And(hn::Ge(at_x, zero), hn::Lt(at_x, hn::Set(f, static_cast<float>(row.width))));
         const auto in_y =
             hn::And(hn::Ge(at_y, zero), hn::Lt(at_y, hn::Set(f, static_cast<float>(row.height))));
-        const auto part = hn::And(hn::And(in_x, in_y), hn::Ge(hn::LoadU(f, row.confidence + x), zero));
+        const auto part = hn::And(in_x, in_y);
         const auto column = hn::ConvertTo(i, hn::IfThenElseZero(part, at_x));
         const auto line = hn::ConvertTo(i, hn::IfThenElseZero(part, at_y));
         const auto gap_x = hn::Sub(hn::Add(hn::ConvertTo(f, column), half), at_x);
@@ -63,10 +63,10 @@ void projectRowSimd(const ProjectedRow& row)
         const auto squeeze = compressionOf(f, slope_x, slope_y, row.steps_x, row.steps_y);
         const auto rise = hn::Add(hn::Mul(gap_x, slope_x), hn::Mul(gap_y, slope_y));
         const auto seen = hn::Gt(squeeze, hn::Set(f, MIN_COMPRESSION));
-        const auto target = hn::Add(hn::Mul(line, hn::Set(i, row.width)), column);
+        const auto ring_line = hn::And(line, hn::Set(i, row.row_mask));
+        const auto target = hn::Add(hn::Mul(ring_line, hn::Set(i, row.width)), column);
         hn::StoreU(hn::IfThenElse(hn::RebindMask(i, part), target, hn::Set(i, -1)), i, row.target + x);
         hn::StoreU(hn::IfThenElse(seen, hn::Add(d, hn::Div(rise, squeeze)), d), f, row.there + x);
-        hn::StoreU(hn::Add(hn::Mul(gap_x, gap_x), hn::Mul(gap_y, gap_y)), f, row.distance + x);
       });
 }
 
@@ -177,12 +177,15 @@ void unprojectRowSimd(const UnprojectedRow& row)
         const auto square = hn::Add(hn::Add(hn::Mul(normal_x, normal_x), hn::Mul(normal_y, normal_y)),
                                     hn::Mul(at_centre, at_centre));
         const auto scale = hn::Div(hn::Set(f, -1.0F), hn::Sqrt(square));
-        hn::StoreU(hn::IfThenElseZero(valid, z), f, row.z + x);
-        hn::StoreU(hn::Add(hn::Set(f, row.centre_x_m), hn::Mul(hn::Mul(column, hn::Set(f, ray_step)), z)), f,
-                   row.x + x);
-        hn::StoreU(hn::Mul(scale, normal_x), f, row.normal_x + x);
-        hn::StoreU(hn::Mul(scale, normal_y), f, row.normal_y + x);
-        hn::StoreU(hn::Mul(scale, at_centre), f, row.normal_z + x);
+        const auto to_x =
+            hn::Add(hn::Set(f, row.centre_x_m), hn::Mul(hn::Mul(column, hn::Set(f, ray_step)), z));
+        const auto to_y = hn::Add(hn::Set(f, row.centre_y_m), hn::Mul(hn::Set(f, row.row_px * ray_step), z));
+        const hn::RebindToUnsigned<decltype(f)> u;
+        hn::StoreInterleaved4(to_x, to_y, hn::IfThenElseZero(valid, z), hn::Mul(scale, normal_x), f,
+                              row.place + 4 * x);
+        hn::StoreInterleaved4(hn::Mul(scale, normal_y), hn::Mul(scale, at_centre),
+                              hn::BitCast(f, hn::LoadU(u, row.colour + x)), hn::LoadU(f, row.confidence + x),
+                              f, row.look + 4 * x);
       });
 }
 

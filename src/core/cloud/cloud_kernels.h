@@ -19,19 +19,18 @@ inline float compression(float slope_x, float slope_y, float steps_x, float step
 /// The pixels of a row of a map on their way to a view.
 struct ProjectedRow
 {
-  const float* disparity = nullptr;   ///< [width], finite
-  const float* confidence = nullptr;  ///< [width]; negative: takes no part
-  const float* slope_x = nullptr;     ///< [width]
-  const float* slope_y = nullptr;     ///< [width]
+  const float* disparity = nullptr;  ///< [width], finite; NaN: takes no part
+  const float* slope_x = nullptr;    ///< [width]
+  const float* slope_y = nullptr;    ///< [width]
   int width = 0;
   int height = 0;
+  int row_mask = -1;     ///< of the rows of `target`, where these are a ring; -1: they are all there
   float begin_x = 0.0F;  ///< where disparity 0 brings the pixel 0, plus half a pixel
   float begin_y = 0.0F;  ///< likewise, of this row
   float steps_x = 0.0F;  ///< from the map's view to this one
   float steps_y = 0.0F;
   std::int32_t* target = nullptr;  ///< [width], result: index of the view's pixel; negative: none
   float* there = nullptr;          ///< [width], result: disparity at the middle of that pixel
-  float* distance = nullptr;       ///< [width], result: squared, from its middle
 };
 
 void projectRow(const ProjectedRow& row);
@@ -78,9 +77,11 @@ void agreeInRowPlain(const AgreedRow& row);
 /// A row of disparities on its way to points and normals.
 struct UnprojectedRow
 {
-  const float* disparity = nullptr;  ///< [width]
-  const float* slope_x = nullptr;    ///< [width], where the disparity is a number
-  const float* slope_y = nullptr;    ///< [width]
+  const float* disparity = nullptr;       ///< [width]
+  const float* slope_x = nullptr;         ///< [width], where the disparity is a number
+  const float* slope_y = nullptr;         ///< [width]
+  const float* confidence = nullptr;      ///< [width]
+  const std::uint32_t* colour = nullptr;  ///< [width], as a point has colour and views
   int width = 0;
   float offset_px = 0.0F;  ///< d_inf
   float focal_length_px = 1.0F;
@@ -88,11 +89,10 @@ struct UnprojectedRow
   float principal_x_px = 0.0F;
   float row_px = 0.0F;  ///< y of the row less that of the principal point
   float centre_x_m = 0.0F;
-  float* x = nullptr;  ///< [width], results, metres
-  float* z = nullptr;  ///< [width]; 0 where there is no point
-  float* normal_x = nullptr;
-  float* normal_y = nullptr;
-  float* normal_z = nullptr;
+  float centre_y_m = 0.0F;
+  // Results: what a point has, in two halves.
+  float* place = nullptr;  ///< [4 * width]: x, y, z, metres, and normal x; z is 0 where there is no point
+  float* look = nullptr;   ///< [4 * width]: normal y, normal z, colour, confidence
 };
 
 void unprojectRow(const UnprojectedRow& row);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "core/cloud/cloud_kernels.h"
@@ -22,7 +23,7 @@ void projectRowPlain(const ProjectedRow& row)
     const float at_x = static_cast<float>(x) + row.begin_x - d * row.steps_x;
     const float at_y = row.begin_y - d * row.steps_y;
     row.target[x] = -1;
-    if (row.confidence[x] >= 0.0F && at_x >= 0.0F && at_x < width && at_y >= 0.0F && at_y < height)
+    if (at_x >= 0.0F && at_x < width && at_y >= 0.0F && at_y < height)
     {
       const auto column = static_cast<std::int32_t>(at_x);
       const auto line = static_cast<std::int32_t>(at_y);
@@ -30,9 +31,8 @@ void projectRowPlain(const ProjectedRow& row)
       const float gap_y = static_cast<float>(line) + 0.5F - at_y;
       const float squeeze = compression(row.slope_x[x], row.slope_y[x], row.steps_x, row.steps_y);
       const float rise = gap_x * row.slope_x[x] + gap_y * row.slope_y[x];
-      row.target[x] = line * row.width + column;
+      row.target[x] = (line & row.row_mask) * row.width + column;
       row.there[x] = squeeze > MIN_COMPRESSION ? d + rise / squeeze : d;
-      row.distance[x] = gap_x * gap_x + gap_y * gap_y;
     }
   }
 }
@@ -100,7 +100,9 @@ void unprojectRowPlain(const UnprojectedRow& row)
   {
     const float absolute = row.disparity[x] + row.offset_px;
     const float z = row.focal_times_baseline / absolute;
-    row.z[x] = 0.0F;
+    float* const place = row.place + 4 * static_cast<std::ptrdiff_t>(x);
+    float* const look = row.look + 4 * static_cast<std::ptrdiff_t>(x);
+    place[2] = 0.0F;
     if (absolute > 0.0F && z <= std::numeric_limits<float>::max())
     {
       // 1 / Z is linear in the pixel: f B / Z = absolute + slope . (p - p0). With p = c + f X / Z this is a
@@ -111,11 +113,14 @@ void unprojectRowPlain(const UnprojectedRow& row)
       const float normal_y = row.focal_length_px * row.slope_y[x];
       const float scale =
           -1.0F / std::sqrt(normal_x * normal_x + normal_y * normal_y + at_centre * at_centre);
-      row.z[x] = z;
-      row.x[x] = row.centre_x_m + column * ray_step * z;
-      row.normal_x[x] = scale * normal_x;
-      row.normal_y[x] = scale * normal_y;
-      row.normal_z[x] = scale * at_centre;
+      place[0] = row.centre_x_m + column * ray_step * z;
+      place[1] = row.centre_y_m + row.row_px * ray_step * z;
+      place[2] = z;
+      place[3] = scale * normal_x;
+      look[0] = scale * normal_y;
+      look[1] = scale * at_centre;
+      std::memcpy(look + 2, row.colour + x, sizeof(float));
+      look[3] = row.confidence[x];
     }
   }
 }

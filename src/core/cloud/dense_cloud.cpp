@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -22,81 +24,81 @@ class ViewPoints
 {
 public:
   ViewPoints(const View& view, const Calibration& calibration)
-      : image_(view.image), scratch_(SCRATCH_ROWS * static_cast<std::size_t>(view.image.cols))
+      : image_(view.image), colour_(static_cast<std::size_t>(view.image.cols)),
+        place_(FLOATS_OF_HALF * colour_.size()), look_(place_.size())
   {
     const cloud::ViewCamera camera = cloud::cameraOf(view, calibration);
     principal_y_px_ = static_cast<float>(camera.principal_point_px.y);
-    centre_y_m_ = static_cast<float>(camera.centre_m.y);
     row_.width = view.image.cols;
     row_.offset_px = static_cast<float>(calibration.disparity_offset_px);
     row_.focal_length_px = static_cast<float>(calibration.focal_length_px);
     row_.focal_times_baseline = static_cast<float>(calibration.focal_length_px * calibration.baseline_m);
     row_.principal_x_px = static_cast<float>(camera.principal_point_px.x);
     row_.centre_x_m = static_cast<float>(camera.centre_m.x);
-    float* next = scratch_.data();
-    for (float** const row : {&row_.x, &row_.z, &row_.normal_x, &row_.normal_y, &row_.normal_z})
-    {
-      *row = next;
-      next += row_.width;
-    }
+    row_.centre_y_m = static_cast<float>(camera.centre_m.y);
+    row_.colour = colour_.data();
+    row_.place = place_.data();
+    row_.look = look_.data();
   }
 
-  /// Appends the points of a row. @return the end of what was written
-  DensePoint* write(const cloud::FusedView& fused, int y, DensePoint* point)
+  /// Appends the points of a row. @param point room for one more than the row has
+  /// @return the end of what was written
+  DensePoint* write(int y, const cloud::FusedRow& fused, DensePoint* point)
   {
-    row_.disparity = fused.disparity.ptr<float>(y);
-    row_.slope_x = fused.slope_x.ptr<float>(y);
-    row_.slope_y = fused.slope_y.ptr<float>(y);
+    row_.disparity = fused.disparity.data();
+    row_.slope_x = fused.slope_x.data();
+    row_.slope_y = fused.slope_y.data();
+    row_.confidence = fused.confidence.data();
     row_.row_px = static_cast<float>(y) - principal_y_px_;
+    takeColours(y, fused.votes);
     cloud::unprojectRow(row_);
-    const auto* const confidence = fused.confidence.ptr<float>(y);
-    const auto* const votes = fused.votes.ptr<std::uint8_t>(y);
-    const auto* pixel = image_.ptr<std::uint8_t>(y);
-    const int channels = image_.channels();
-    const int green = channels == 3 ? 1 : 0;
-    const int red = channels == 3 ? 2 : 0;
-    const float ray_y = row_.row_px * (1.0F / row_.focal_length_px);
-    for (int x = 0; x < row_.width; ++x, pixel += channels)
+    // What is no point is written over by the next one.
+    const float* place = row_.place;
+    const float* look = row_.look;
+    for (int x = 0; x < row_.width; ++x, place += FLOATS_OF_HALF, look += FLOATS_OF_HALF)
     {
-      const float z = row_.z[x];
-      if (z > 0.0F)
-      {
-        *point++ = {row_.x[x],
-                    centre_y_m_ + ray_y * z,
-                    z,
-                    row_.normal_x[x],
-                    row_.normal_y[x],
-                    row_.normal_z[x],
-                    pixel[red],
-                    pixel[green],
-                    pixel[0],
-                    votes[x],
-                    confidence[x]};
-      }
+      std::memcpy(&point->x, place, sizeof(float) * FLOATS_OF_HALF);
+      std::memcpy(&point->normal_y, look, sizeof(float) * FLOATS_OF_HALF);
+      point += place[2] > 0.0F ? 1 : 0;
     }
     return point;
   }
 
 private:
-  static constexpr std::size_t SCRATCH_ROWS = 5;
+  static constexpr std::size_t FLOATS_OF_HALF = 4;
+
+  /// As a point has them in its memory.
+  void takeColours(int y, const std::vector<std::uint8_t>& votes)
+  {
+    const auto* pixel = image_.ptr<std::uint8_t>(y);
+    const int channels = image_.channels();
+    const int green = channels == 3 ? 1 : 0;
+    const int red = channels == 3 ? 2 : 0;
+    const std::uint8_t* vote = votes.data();
+    std::uint32_t* colour = colour_.data();
+    for (int x = 0; x < row_.width; ++x, pixel += channels)
+    {
+      const std::array<std::uint8_t, sizeof(std::uint32_t)> bytes = {pixel[red], pixel[green], pixel[0],
+                                                                     *vote++};
+      std::memcpy(colour++, bytes.data(), bytes.size());
+    }
+  }
 
   const cv::Mat& image_;
-  std::vector<float> scratch_;
+  std::vector<std::uint32_t> colour_;
+  std::vector<float> place_;
+  std::vector<float> look_;
   cloud::UnprojectedRow row_;
   float principal_y_px_ = 0.0F;
-  float centre_y_m_ = 0.0F;
 };
 
-void unproject(const cloud::FusedView& fused, const View& view, const Calibration& calibration,
+void unproject(const cloud::BatchFusion::FusedRows& rows, const View& view, const Calibration& calibration,
                std::vector<DensePoint>& points)
 {
   ViewPoints view_points(view, calibration);
-  points.resize(fused.disparity.total());
+  points.resize(view.image.total() + 1);
   DensePoint* point = points.data();
-  for (int y = 0; y < fused.disparity.rows; ++y)
-  {
-    point = view_points.write(fused, y, point);
-  }
+  rows([&](int y, const cloud::FusedRow& row) { point = view_points.write(y, row, point); });
   points.resize(static_cast<std::size_t>(point - points.data()));
 }
 
@@ -146,9 +148,9 @@ void denseCloud(const LightField& light_field, const std::vector<ViewDisparity>&
   std::vector<cloud::VoxelMerger::Part> parts(merger ? fusion.slots() : 0);
   fusion.run(
       options.min_confidence,
-      [&](const View& view, std::size_t slot, const cloud::FusedView& fused)
+      [&](const View& view, std::size_t slot, const cloud::BatchFusion::FusedRows& rows)
       {
-        unproject(fused, view, *shown.calibration, points[slot]);
+        unproject(rows, view, *shown.calibration, points[slot]);
         if (merger)
         {
           merger->sumUp(points[slot], parts[slot]);

@@ -207,14 +207,14 @@ private:
   std::vector<cv::Point2f> offsets_;
 };
 
-void createMaps(const cv::Size& size, FusedView& fused)
+void setWidth(std::size_t width, FusedRow& row)
 {
-  for (cv::Mat* const map : {&fused.disparity, &fused.confidence, &fused.slope_x, &fused.slope_y})
+  for (std::vector<float>* const values : {&row.disparity, &row.confidence, &row.slope_x, &row.slope_y})
   {
-    map->create(size, CV_32FC1);
+    values->resize(width);
   }
-  fused.votes.create(size, CV_8UC1);
-  fused.by_first.create(size, CV_8UC1);
+  row.votes.resize(width);
+  row.by_first.resize(width);
 }
 
 /// Writes what the candidates of each pixel agree on.
@@ -222,13 +222,17 @@ class ViewFusion
 {
 public:
   ViewFusion(const std::vector<SurfaceMap>& maps, const View& view, const Tolerance& tolerance,
-             float min_confidence, const FusionScratch& scratch, FusedView& fused)
+             float min_confidence, FusionScratch& scratch)
       : sight_lines_(maps, view, tolerance), tolerance_(tolerance), min_confidence_(min_confidence),
-        scratch_(scratch), fused_(fused), all_(maps.size())
+        warps_(scratch.warps), row_(scratch.row), all_(maps.size()), width_(maps.front().disparity.cols)
   {
+    warps_.resize(all_);
+    setWidth(static_cast<std::size_t>(width_), row_);
+    done_.resize(row_.votes.size());
     for (std::size_t i = 0; i < all_; ++i)
     {
       const cv::Point2f steps = view.steps - maps[i].steps;
+      warps_[i].begin(maps[i], view, tolerance);
       MapOfRow& map = maps_[i];
       map.confidence = maps[i].confidence.ptr<float>();
       map.slope_x = maps[i].slope_x.ptr<float>();
@@ -243,57 +247,47 @@ public:
         own_index_ = static_cast<std::uint32_t>(i);
       }
     }
-    done_.resize(static_cast<std::size_t>(fused.disparity.cols));
   }
 
-  void fuseRow(int y)
+  /// Rows in their order.
+  const FusedRow& fuseRow(int y)
   {
     for (std::size_t i = 0; i < all_; ++i)
     {
-      maps_[i].source = scratch_.warped[i].source.ptr<std::int32_t>(y);
-      maps_[i].disparity = scratch_.warped[i].disparity.ptr<float>(y);
+      const WarpedRow warped = warps_[i].nextRow();
+      maps_[i].source = warped.source;
+      maps_[i].disparity = warped.disparity;
     }
-    setOutput(y);
     agree();
-    for (int x = 0; x < fused_.disparity.cols; ++x)
+    const auto end = done_.end();
+    for (auto left = std::find(done_.begin(), end, 0); left != end; left = std::find(left + 1, end, 0))
     {
-      if (done_[static_cast<std::size_t>(x)] == 0)
-      {
-        fusePixel(x, y);
-      }
+      fusePixel(static_cast<int>(left - done_.begin()), y);
     }
     if (own_ != nullptr)
     {
       takeHeld(y);
     }
+    return row_;
   }
 
 private:
-  void setOutput(int y)
-  {
-    disparity_ = fused_.disparity.ptr<float>(y);
-    confidence_ = fused_.confidence.ptr<float>(y);
-    slope_x_ = fused_.slope_x.ptr<float>(y);
-    slope_y_ = fused_.slope_y.ptr<float>(y);
-    votes_ = fused_.votes.ptr<std::uint8_t>(y);
-    by_first_ = fused_.by_first.ptr<std::uint8_t>(y);
-  }
-
   /// What planes hold is no new information for other views: they would only repeat it.
   void takeHeld(int y)
   {
     const auto* const held = own_->held.ptr<float>(y);
     const auto* const disparity = own_->disparity.ptr<float>(y);
-    for (int x = 0; x < fused_.disparity.cols; ++x)
+    for (int x = 0; x < width_; ++x)
     {
-      if (held[x] >= min_confidence_ && held[x] > 0.0F && std::isnan(disparity_[x]))
+      if (held[x] >= min_confidence_ && held[x] > 0.0F &&
+          std::isnan(row_.disparity[static_cast<std::size_t>(x)]))
       {
         Cluster cluster;
         cluster.disparity = disparity[x];
         cluster.members = 1U << own_index_;
         if (sight_lines_.areBlocked(x, y, cluster))
         {
-          const std::int32_t source = y * fused_.disparity.cols + x;
+          const std::int32_t source = y * width_ + x;
           write(x, disparity[x], held[x], {disparity[x], held[x], 1.0F, source, own_index_}, 1,
                 cluster.members);
         }
@@ -307,7 +301,7 @@ private:
     AgreedRow row;
     row.maps = maps_.data();
     row.count = static_cast<int>(all_);
-    row.width = fused_.disparity.cols;
+    row.width = width_;
     row.offset_px = tolerance_.offset_px;
     row.floor_px = tolerance_.floor_px;
     row.same_surface = SAME_SURFACE;
@@ -316,14 +310,14 @@ private:
         all_ == 1 ? std::numeric_limits<float>::infinity() : MIN_WEIGHT_PER_CONFIDENCE * min_confidence_;
     row.min_confidence = min_confidence_;
     row.nearest = nearest_;
-    row.disparity = disparity_;
-    row.confidence = confidence_;
-    row.slope_x = slope_x_;
-    row.slope_y = slope_y_;
+    row.disparity = row_.disparity.data();
+    row.confidence = row_.confidence.data();
+    row.slope_x = row_.slope_x.data();
+    row.slope_y = row_.slope_y.data();
     row.done = done_.data();
     agreeInRow(row);
-    std::fill_n(votes_, row.width, static_cast<std::uint8_t>(all_));
-    std::fill_n(by_first_, row.width, std::uint8_t{1});
+    std::fill(row_.votes.begin(), row_.votes.end(), static_cast<std::uint8_t>(all_));
+    std::fill(row_.by_first.begin(), row_.by_first.end(), std::uint8_t{1});
   }
 
   void fusePixel(int x, int y)
@@ -379,51 +373,40 @@ private:
     const float slope_y = map.slope_y[from.source];
     const float squeeze = compression(slope_x, slope_y, map.steps_x, map.steps_y);
     const float stretch = squeeze > MIN_COMPRESSION ? 1.0F / squeeze : 1.0F;
-    disparity_[x] = disparity;
-    confidence_[x] = confidence;
-    slope_x_[x] = slope_x * stretch;
-    slope_y_[x] = slope_y * stretch;
-    votes_[x] = static_cast<std::uint8_t>(votes);
-    by_first_[x] = static_cast<std::uint8_t>(members & 1U);
+    const auto at = static_cast<std::size_t>(x);
+    row_.disparity[at] = disparity;
+    row_.confidence[at] = confidence;
+    row_.slope_x[at] = slope_x * stretch;
+    row_.slope_y[at] = slope_y * stretch;
+    row_.votes[at] = static_cast<std::uint8_t>(votes);
+    row_.by_first[at] = static_cast<std::uint8_t>(members & 1U);
   }
 
   SightLines sight_lines_;
   const Tolerance& tolerance_;
   float min_confidence_;
-  const FusionScratch& scratch_;
-  FusedView& fused_;
+  std::vector<SurfaceWarp>& warps_;
+  FusedRow& row_;
   std::size_t all_;
+  int width_;
   std::array<MapOfRow, MAX_FUSED_MAPS> maps_{};
   float nearest_ = 0.0F;             ///< the greatest nearness
   const SurfaceMap* own_ = nullptr;  ///< of this very view, if planes hold some of it
   std::uint32_t own_index_ = 0;
   std::array<Candidate, MAX_FUSED_MAPS> candidates_{};
   std::vector<std::uint8_t> done_;  ///< of a row: where nothing is left to decide
-  // Of the row.
-  float* disparity_ = nullptr;
-  float* confidence_ = nullptr;
-  float* slope_x_ = nullptr;
-  float* slope_y_ = nullptr;
-  std::uint8_t* votes_ = nullptr;
-  std::uint8_t* by_first_ = nullptr;
 };
 
 }  // namespace
 
 void fuseView(const std::vector<SurfaceMap>& maps, const View& view, const Tolerance& tolerance,
-              float min_confidence, FusionScratch& scratch, FusedView& fused)
+              float min_confidence, FusionScratch& scratch, const FusedRowSink& sink)
 {
   CV_Assert(!maps.empty() && maps.size() <= MAX_FUSED_MAPS);
-  createMaps(maps.front().disparity.size(), fused);
-  scratch.warped.resize(maps.size());
-  for (std::size_t i = 0; i < maps.size(); ++i)
+  ViewFusion fusion(maps, view, tolerance, min_confidence, scratch);
+  for (int y = 0; y < maps.front().disparity.rows; ++y)
   {
-    warpSurface(maps[i], view, tolerance, scratch.warped[i]);
-  }
-  ViewFusion fusion(maps, view, tolerance, min_confidence, scratch, fused);
-  for (int y = 0; y < fused.disparity.rows; ++y)
-  {
-    fusion.fuseRow(y);
+    sink(y, fusion.fuseRow(y));
   }
 }
 

@@ -2,9 +2,8 @@
 #define LIGHT_FIELD_DEPTH_SRC_CORE_CLOUD_SURFACE_FUSION_H
 
 #include <cstdint>
+#include <functional>
 #include <vector>
-
-#include <opencv2/core.hpp>
 
 #include "core/cloud/surface_map.h"
 #include "core/cloud/surface_warp.h"
@@ -12,21 +11,25 @@
 
 namespace light_field_depth::cloud
 {
-/// What the maps agree on in one view.
-struct FusedView
+/// What the maps agree on in a row of a view.
+struct FusedRow
 {
-  cv::Mat disparity;   ///< CV_32FC1; NaN where nothing is kept
-  cv::Mat confidence;  ///< CV_32FC1, 0..1
-  cv::Mat slope_x;     ///< CV_32FC1, of the surface's plane in the pixel grid of the view
-  cv::Mat slope_y;     ///< likewise
-  cv::Mat votes;       ///< CV_8UC1, maps that agree
-  cv::Mat by_first;    ///< CV_8UC1, 1 where the first map is one of them
+  std::vector<float> disparity;        ///< NaN where nothing is kept
+  std::vector<float> confidence;       ///< 0..1
+  std::vector<float> slope_x;          ///< of the surface's plane in the pixel grid of the view
+  std::vector<float> slope_y;          ///< likewise
+  std::vector<std::uint8_t> votes;     ///< maps that agree
+  std::vector<std::uint8_t> by_first;  ///< 1 where the first map is one of them
 };
+
+/// Receives the rows of a view in their order.
+using FusedRowSink = std::function<void(int y, const FusedRow& row)>;
 
 /// What fusing one view needs besides the maps; one for each thread.
 struct FusionScratch
 {
-  std::vector<WarpedSurface> warped;
+  std::vector<SurfaceWarp> warps;
+  FusedRow row;
 };
 
 /// Brings all maps to a view, takes the best supported of their surfaces at each pixel, and drops what too
@@ -35,7 +38,7 @@ struct FusionScratch
 /// @param maps one to MAX_FUSED_MAPS
 /// @param min_confidence 0..1
 void fuseView(const std::vector<SurfaceMap>& maps, const View& view, const Tolerance& tolerance,
-              float min_confidence, FusionScratch& scratch, FusedView& fused);
+              float min_confidence, FusionScratch& scratch, const FusedRowSink& sink);
 
 }  // namespace light_field_depth::cloud
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <opencv2/imgproc.hpp>
 
@@ -92,6 +93,22 @@ struct Extent
   cv::Mat high;
 };
 
+/// What takes part, apart, and its range.
+void separateMoving(SurfaceMap& surface)
+{
+  surface.moving = surface.disparity.clone();
+  const cv::Mat still = surface.confidence < 0.0F;
+  surface.moving.setTo(std::numeric_limits<float>::quiet_NaN(), still);
+  double low = 0.0;
+  double high = 0.0;
+  const cv::Mat part = still == 0;
+  if (cv::countNonZero(part) > 0)
+  {
+    cv::minMaxLoc(surface.disparity, &low, &high, nullptr, nullptr, part);
+  }
+  surface.range = {static_cast<float>(low), static_cast<float>(high)};
+}
+
 }  // namespace
 
 Tolerance toleranceFor(const LightField& light_field, const DisparityRange& range)
@@ -167,6 +184,7 @@ SurfaceMap makeSurfaceMap(const ViewDisparity& map, const View& view, const Tole
                        }
                      }
                    });
+  separateMoving(surface);
   return surface;
 }
 

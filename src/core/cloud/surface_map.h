@@ -40,6 +40,8 @@ struct SurfaceMap
   cv::Mat confidence;     ///< CV_32FC1; negative where the pixel takes no part: unknown, filled, or at a rim
   cv::Mat slope_x;        ///< CV_32FC1, of the plane through the pixel's surface about it, per pixel
   cv::Mat slope_y;        ///< likewise
+  cv::Mat moving;         ///< CV_32FC1, the disparity again, NaN where the pixel takes no part
+  DisparityRange range;   ///< of what takes part; 0..0 if nothing does
   cv::Mat held;           ///< CV_32FC1 or empty: confidence where a plane holds the pixel; 0 elsewhere
 };
 

@@ -1,8 +1,7 @@
 #include "core/cloud/surface_warp.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include "core/cloud/cloud_kernels.h"
 
 namespace light_field_depth::cloud
 {
@@ -12,107 +11,184 @@ namespace
 /// fusion.
 constexpr float SAME_SURFACE = 0.015F;
 
-/// Closes a gap of one pixel between two pixels of one surface.
-void closeGap(WarpedSurface& warped, const Tolerance& tolerance, int before, int here, int after)
-{
-  auto* const source = warped.source.ptr<std::int32_t>();
-  auto* const disparity = warped.disparity.ptr<float>();
-  if (source[before] < 0 || source[after] < 0)
-  {
-    return;
-  }
-  if (std::abs(disparity[before] - disparity[after]) <= tolerance.gap(disparity[before], SAME_SURFACE))
-  {
-    disparity[here] = 0.5F * (disparity[before] + disparity[after]);
-    source[here] = source[before];
-  }
-}
+/// A line is finished when the rows that may reach it have been brought; one more for what is rounded.
+constexpr float ROUNDING_ROWS = 1.0F;
+/// Lines of the ring besides those between the least and the most rise: the one before the current one, the
+/// one after it, and those of the rows that are brought for safety.
+constexpr int SPARE_LINES = 10;
 
-void closeGaps(WarpedSurface& warped, const Tolerance& tolerance)
+int powerOfTwoFrom(int least)
 {
-  const int columns = warped.source.cols;
-  const int rows = warped.source.rows;
-  for (int y = 0; y < rows; ++y)
+  int power = 1;
+  while (power < least)
   {
-    const auto* const source = warped.source.ptr<std::int32_t>(y);
-    for (int x = 0; x < columns; ++x)
-    {
-      if (source[x] >= 0)
-      {
-        continue;
-      }
-      const int here = y * columns + x;
-      if (x > 0 && x + 1 < columns)
-      {
-        closeGap(warped, tolerance, here - 1, here, here + 1);
-      }
-      if (source[x] < 0 && y > 0 && y + 1 < rows)
-      {
-        closeGap(warped, tolerance, here - columns, here, here + columns);
-      }
-    }
+    power *= 2;
   }
+  return power;
 }
 
 }  // namespace
 
-void warpSurface(const SurfaceMap& map, const View& view, const Tolerance& tolerance, WarpedSurface& warped)
+void SurfaceWarp::begin(const SurfaceMap& map, const View& view, const Tolerance& tolerance)
 {
-  const cv::Size size = map.disparity.size();
-  warped.disparity.create(size, CV_32FC1);
-  warped.source.create(size, CV_32SC1);
-  warped.distance.create(size, CV_32FC1);
-  warped.source.setTo(WarpedSurface::NOTHING_HERE);
+  map_ = &map;
+  tolerance_ = &tolerance;
+  const cv::Size size = map.moving.size();
+  width_ = static_cast<std::size_t>(size.width);
   const cv::Point2f steps = view.steps - map.steps;
   const cv::Point2f offset = view.offset_px - map.offset_px;
-  warped.row_target.create(1, size.width, CV_32SC1);
-  warped.row_there.create(1, size.width, CV_32FC1);
-  warped.row_distance.create(1, size.width, CV_32FC1);
-  ProjectedRow row;
-  row.width = size.width;
-  row.height = size.height;
-  row.begin_x = offset.x + 0.5F;  // half a pixel more: the conversion to an integer then rounds
-  row.steps_x = steps.x;
-  row.steps_y = steps.y;
-  row.target = warped.row_target.ptr<std::int32_t>();
-  row.there = warped.row_there.ptr<float>();
-  row.distance = warped.row_distance.ptr<float>();
-  auto* const to_disparity = warped.disparity.ptr<float>();
-  auto* const to_source = warped.source.ptr<std::int32_t>();
-  auto* const to_distance = warped.distance.ptr<float>();
-  for (int y = 0; y < size.height; ++y)
+  begin_y_ = offset.y + 0.5F;  // half a pixel more: the conversion to an integer then rounds
+  const float near_rise = begin_y_ - map.range.max * steps.y;
+  const float far_rise = begin_y_ - map.range.min * steps.y;
+  least_rise_ = std::min(near_rise, far_rise);
+  most_rise_ = std::max(near_rise, far_rise);
+  const float height = static_cast<float>(size.height);
+  const int lines = static_cast<int>(std::min(most_rise_ - least_rise_, height)) + SPARE_LINES;
+  const int ring = powerOfTwoFrom(std::min(lines, size.height));
+  source_.resize(static_cast<std::size_t>(ring) * width_);
+  disparity_.resize(source_.size());
+  target_.resize(width_);
+  there_.resize(width_);
+  projected_.width = size.width;
+  projected_.height = size.height;
+  projected_.row_mask = ring - 1;
+  projected_.begin_x = offset.x + 0.5F;
+  projected_.steps_x = steps.x;
+  projected_.steps_y = steps.y;
+  projected_.target = target_.data();
+  projected_.there = there_.data();
+  next_line_ = 0;
+  next_row_ = 0;
+  next_clear_ = 0;
+}
+
+WarpedRow SurfaceWarp::nextRow()
+{
+  const int line = next_line_++;
+  finish(std::min(line + 1, projected_.height - 1));  // gaps are closed from both sides
+  closeGaps(line);
+  const std::size_t start = startOf(line);
+  return {source_.data() + start, disparity_.data() + start};
+}
+
+/// Brings all rows that may reach a line.
+void SurfaceWarp::finish(int line)
+{
+  const float first_beyond = static_cast<float>(line) + 1.0F - least_rise_ + ROUNDING_ROWS;
+  while (next_row_ < projected_.height && static_cast<float>(next_row_) < first_beyond)
   {
-    row.disparity = map.disparity.ptr<float>(y);
-    row.confidence = map.confidence.ptr<float>(y);
-    row.slope_x = map.slope_x.ptr<float>(y);
-    row.slope_y = map.slope_y.ptr<float>(y);
-    row.begin_y = static_cast<float>(y) + offset.y + 0.5F;
-    projectRow(row);
-    for (int x = 0; x < size.width; ++x)
+    const float highest = static_cast<float>(next_row_) + most_rise_ + ROUNDING_ROWS;
+    clearUpTo(static_cast<int>(std::clamp(highest, -1.0F, static_cast<float>(projected_.height - 1))));
+    bring(next_row_++);
+  }
+  clearUpTo(line);
+}
+
+void SurfaceWarp::clearUpTo(int line)
+{
+  for (; next_clear_ <= line; ++next_clear_)
+  {
+    std::fill_n(source_.data() + startOf(next_clear_), width_, WarpedRow::NOTHING_HERE);
+  }
+}
+
+void SurfaceWarp::bring(int row)
+{
+  projected_.disparity = map_->moving.ptr<float>(row);
+  projected_.slope_x = map_->slope_x.ptr<float>(row);
+  projected_.slope_y = map_->slope_y.ptr<float>(row);
+  projected_.begin_y = static_cast<float>(row) + begin_y_;
+  projectRow(projected_);
+  const auto first = static_cast<std::int32_t>(row) * projected_.width;
+  // Pointers of this function's own, which nothing that it writes may change.
+  const std::int32_t* const target = target_.data();
+  const float* const there = there_.data();
+  std::int32_t* const source = source_.data();
+  float* const disparity = disparity_.data();
+  const int width = projected_.width;
+  for (int x = 0; x < width; ++x)
+  {
+    const std::int32_t at = target[x];
+    if (at >= 0 && (source[at] < 0 || isBetter(at, first + x, there[x])))
     {
-      const std::int32_t target = row.target[x];
-      if (target < 0)
+      disparity[at] = there[x];
+      source[at] = first + x;
+    }
+  }
+}
+
+/// Whether a pixel of the map is to take the place of the one that is there.
+bool SurfaceWarp::isBetter(std::int32_t target, std::int32_t source, float there) const
+{
+  const auto at = static_cast<std::size_t>(target);
+  const float ahead = there - disparity_[at];
+  const float same = tolerance_->gap(there, SAME_SURFACE);
+  return ahead > same || (ahead > -same && distanceOf(source) < distanceOf(source_[at]));
+}
+
+/// Squared, from where a pixel of the map falls to the middle of the pixel there.
+float SurfaceWarp::distanceOf(std::int32_t source) const
+{
+  const std::int32_t row = source / projected_.width;
+  const std::int32_t column = source % projected_.width;
+  const float disparity = map_->moving.ptr<float>(row)[column];
+  const float at_x = static_cast<float>(column) + projected_.begin_x - disparity * projected_.steps_x;
+  const float at_y = static_cast<float>(row) + begin_y_ - disparity * projected_.steps_y;
+  const float gap_x = std::trunc(at_x) + 0.5F - at_x;
+  const float gap_y = std::trunc(at_y) + 0.5F - at_y;
+  return gap_x * gap_x + gap_y * gap_y;
+}
+
+/// Closes gaps of one pixel between two pixels of one surface.
+void SurfaceWarp::closeGaps(int line)
+{
+  constexpr std::size_t run = 16;
+  const std::size_t start = startOf(line);
+  const bool has_both_lines = line > 0 && line + 1 < projected_.height;
+  const std::size_t above = has_both_lines ? startOf(line - 1) : 0;
+  const std::size_t below = has_both_lines ? startOf(line + 1) : 0;
+  for (std::size_t x = 0; x < width_;)
+  {
+    const std::int32_t* const here = source_.data() + start + x;
+    if (x + run <= width_)
+    {
+      std::int32_t any_gap = 0;
+      for (std::size_t i = 0; i < run; ++i)
+      {
+        any_gap |= here[i];
+      }
+      if (any_gap >= 0)
+      {
+        x += run;
+        continue;
+      }
+    }
+    for (const std::size_t end = std::min(x + run, width_); x < end; ++x)
+    {
+      if (source_[start + x] >= 0)
       {
         continue;
       }
-      const float there = row.there[x];
-      const float distance = row.distance[x];
-      if (to_source[target] >= 0)
+      if (x > 0 && x + 1 < width_)
       {
-        const float ahead = there - to_disparity[target];
-        const float same = tolerance.gap(there, SAME_SURFACE);
-        const bool better = ahead > same || (ahead > -same && distance < to_distance[target]);
-        if (!better)
-        {
-          continue;
-        }
+        closeGap(start + x - 1, start + x, start + x + 1);
       }
-      to_disparity[target] = there;
-      to_source[target] = y * size.width + x;
-      to_distance[target] = distance;
+      if (source_[start + x] < 0 && has_both_lines)
+      {
+        closeGap(above + x, start + x, below + x);
+      }
     }
   }
-  closeGaps(warped, tolerance);
+}
+
+void SurfaceWarp::closeGap(std::size_t before, std::size_t here, std::size_t after)
+{
+  if (source_[before] >= 0 && source_[after] >= 0 &&
+      std::abs(disparity_[before] - disparity_[after]) <= tolerance_->gap(disparity_[before], SAME_SURFACE))
+  {
+    disparity_[here] = 0.5F * (disparity_[before] + disparity_[after]);
+    source_[here] = source_[before];
+  }
 }
 
 }  // namespace light_field_depth::cloud

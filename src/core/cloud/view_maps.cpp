@@ -69,29 +69,20 @@ void fill(const View& view, float lowest, cv::Mat& disparity)
   disparity.setTo(lowest, cloud::unknownPixels(disparity));  // the view shows nothing that any map does
 }
 
-void makeMap(const cloud::FusedView& fused, const View& view, float lowest, ViewMap& map)
+void takeRow(int y, const cloud::FusedRow& fused, ViewMap& map)
 {
-  fused.disparity.copyTo(map.disparity);
-  fused.confidence.copyTo(map.confidence);
-  map.origin.create(map.disparity.size(), CV_8UC1);
-  for (int y = 0; y < map.disparity.rows; ++y)
+  std::copy(fused.disparity.begin(), fused.disparity.end(), map.disparity.ptr<float>(y));
+  auto* const confidence = map.confidence.ptr<float>(y);
+  auto* const origin = map.origin.ptr<std::uint8_t>(y);
+  for (std::size_t x = 0; x < fused.disparity.size(); ++x)
   {
-    const auto* const disparity = map.disparity.ptr<float>(y);
-    const auto* const by_first = fused.by_first.ptr<std::uint8_t>(y);
-    for (int x = 0; x < map.disparity.cols; ++x)
-    {
-      const bool filled = std::isnan(disparity[x]);
-      const ViewPixel origin = filled             ? ViewPixel::Filled
-                               : by_first[x] != 0 ? ViewPixel::Seen
-                                                  : ViewPixel::Solved;
-      map.origin.ptr<std::uint8_t>(y)[x] = static_cast<std::uint8_t>(origin);
-      if (filled)
-      {
-        map.confidence.ptr<float>(y)[x] = 0.0F;
-      }
-    }
+    const bool filled = std::isnan(fused.disparity[x]);
+    const ViewPixel from = filled                   ? ViewPixel::Filled
+                           : fused.by_first[x] != 0 ? ViewPixel::Seen
+                                                    : ViewPixel::Solved;
+    origin[x] = static_cast<std::uint8_t>(from);
+    confidence[x] = filled ? 0.0F : fused.confidence[x];
   }
-  fill(view, lowest, map.disparity);
 }
 
 }  // namespace
@@ -109,8 +100,15 @@ void viewMaps(const LightField& light_field, const std::vector<ViewDisparity>& m
   std::vector<ViewMap> view_maps(fusion.slots());
   fusion.run(
       options.min_confidence,
-      [&](const View& view, std::size_t slot, const cloud::FusedView& fused)
-      { makeMap(fused, view, static_cast<float>(lowest), view_maps[slot]); },
+      [&](const View& view, std::size_t slot, const cloud::BatchFusion::FusedRows& rows)
+      {
+        ViewMap& map = view_maps[slot];
+        map.disparity.create(maps.front().disparity.size(), CV_32FC1);
+        map.confidence.create(map.disparity.size(), CV_32FC1);
+        map.origin.create(map.disparity.size(), CV_8UC1);
+        rows([&](int y, const cloud::FusedRow& row) { takeRow(y, row, map); });
+        fill(view, static_cast<float>(lowest), map.disparity);
+      },
       [&](std::size_t first, std::size_t count)
       {
         for (std::size_t slot = 0; slot < count; ++slot)
