@@ -51,10 +51,23 @@ struct RowSums
   std::size_t pixels = 0;
 };
 
-void measureRow(const LightField& field, const cv::Mat& disparity, int y, cv::Mat& medians, RowSums& sums)
+/// Every which pixel of a row is taken.
+int stepOf(const LightField& field, std::size_t max_samples)
 {
+  const std::size_t samples = static_cast<std::size_t>(field.size().area()) * (field.views.size() - 1);
+  const std::size_t most = std::max<std::size_t>(max_samples, 1);
+  return static_cast<int>(
+      std::clamp<std::size_t>((samples + most - 1) / most, 1, static_cast<std::size_t>(field.size().width)));
+}
+
+void measureRow(const LightField& field, const cv::Mat& disparity, int y, int step, cv::Mat& medians,
+                RowSums& sums)
+{
+  // Moved from row to row by the golden section of the step, pixels lie far from each other.
+  constexpr double golden_section = 0.618;
+  const int shift = std::max(1, static_cast<int>(std::lround(golden_section * step)));
   std::vector<float> differences;
-  for (int x = 0; x < disparity.cols; ++x)
+  for (int x = y * shift % step; x < disparity.cols; x += step)
   {
     const float d = disparity.at<float>(y, x);
     differences.clear();
@@ -88,7 +101,8 @@ void measureRow(const LightField& field, const cv::Mat& disparity, int y, cv::Ma
 
 }  // namespace
 
-PhotometricError photometricError(const LightField& light_field, const cv::Mat& disparity, ThreadPool& pool)
+PhotometricError photometricError(const LightField& light_field, const cv::Mat& disparity, ThreadPool& pool,
+                                  std::size_t max_samples)
 {
   if (disparity.size() != light_field.size() || disparity.type() != CV_32FC1)
   {
@@ -99,13 +113,15 @@ PhotometricError photometricError(const LightField& light_field, const cv::Mat& 
   const LightField field = toEightBit(light_field);
   PhotometricError error;
   error.medians = cv::Mat(disparity.size(), CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN()));
+  const int step = stepOf(field, max_samples);
   std::vector<RowSums> rows(static_cast<std::size_t>(disparity.rows));
   pool.parallelFor(0, disparity.rows, ROWS_PER_CHUNK,
                    [&](int first, int last)
                    {
                      for (int y = first; y < last; ++y)
                      {
-                       measureRow(field, disparity, y, error.medians, rows[static_cast<std::size_t>(y)]);
+                       measureRow(field, disparity, y, step, error.medians,
+                                  rows[static_cast<std::size_t>(y)]);
                      }
                    });
   RowSums total;

@@ -45,6 +45,25 @@ TEST(PhotometricError, LeavesOutWhatIsUnknownAndWhatNoViewSees)
   EXPECT_TRUE(std::isfinite(error.mean));
 }
 
+TEST(PhotometricError, IsNearlyTheSameOfAPartOfThePixels)
+{
+  const auto input = scene();
+  ThreadPool pool(2);
+  const PhotometricError all = photometricError(input.light_field, input.truth, pool);
+  const auto pixels = static_cast<int>(input.truth.total());
+  const std::size_t samples = input.truth.total() * (input.light_field.views.size() - 1);
+  for (const int part : {2, 3, 5})
+  {
+    const PhotometricError some =
+        photometricError(input.light_field, input.truth, pool, samples / static_cast<std::size_t>(part));
+    const int taken = cv::countNonZero(some.medians == some.medians);
+    EXPECT_LE(taken, pixels / part + input.truth.rows);
+    EXPECT_GT(taken, pixels / part - pixels / 20);
+    EXPECT_NEAR(some.mean, all.mean, 0.03 * all.mean) << "every pixel of " << part;
+    EXPECT_NEAR(some.mean_of_medians, all.mean_of_medians, 0.03 * all.mean_of_medians);
+  }
+}
+
 TEST(PhotometricError, DoesNotDependOnTheNumberOfThreads)
 {
   const auto input = scene();
