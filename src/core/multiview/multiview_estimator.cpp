@@ -41,6 +41,12 @@ constexpr int FAST_VIEWS_PER_ARM = 3;
 /// edge.
 constexpr double EDGE_JUMP_PX = 0.2;
 
+/// Maps of other views are refined less often, which takes off a tenth of their time and makes the cloud of
+/// `balanced` better at edges: of the demo 0.078 instead of 0.089 % of the points fly, 73.2 instead of 72.6 %
+/// of what is seen is there within 0.25 %. Not at all: antinous keeps 87.5 instead of 90.4 % of the
+/// reference.
+constexpr int SPARED_REFINEMENTS = 1;
+
 bool isLarge(const LightField& light_field)
 {
   return light_field.size().area() > LARGE_PIXELS;
@@ -206,6 +212,7 @@ std::vector<ViewDisparity> MultiviewEstimator::solveOtherViews(const LightField&
   MultiviewOptions options = options_;
   options.temporal = false;
   options.registration = false;  // they stand where they are
+  options.refinements = std::max(withPresetNumbers(options_).refinements - SPARED_REFINEMENTS, 1);
   memory_->other_views->setOptions(options);
   EstimateRequest alone;
   alone.disparity_range = estimate.range;
