@@ -107,14 +107,14 @@ struct PathData
   std::vector<std::uint16_t> large_change_penalty = std::vector<std::uint16_t>(TILE_PX, 500);
   std::vector<std::uint16_t> state = std::vector<std::uint16_t>((LABELS + 2) * TILE_PX, NO_STATE);
   std::array<std::uint16_t, TILE_PX> minima{};
-  std::array<float, TILE_PX> best{};
+  std::vector<std::uint16_t> line = std::vector<std::uint16_t>(static_cast<std::size_t>(LABELS) * TILE_PX);
+  std::array<float, static_cast<std::size_t>(TILE_PX) * TILE_PX> best{};
   PathTile tile;
 
   PathData()
   {
     std::fill(state.begin() + TILE_PX, state.end() - TILE_PX, std::uint16_t{0});
     tile.cost = cost.data();
-    tile.sums = sums.data();
     tile.labels = LABELS;
     tile.small_change_penalty = 30;
     tile.large_change_penalty = large_change_penalty.data();
@@ -144,22 +144,24 @@ Kernel tilePaths()
 {
   const auto paths = std::make_shared<PathData>();
   const auto with = [&](auto kernel)
-  { return calling(paths, [kernel](PathData& data) { kernel(data.tile); }); };
+  { return calling(paths, [kernel](PathData& data) { kernel(data.tile, data.sums.data()); }); };
   // Cost, sums written, states read and written.
-  return {"paths through a tile", "entry x path",      TILE_ENTRIES,
-          7.0 * TILE_ENTRIES,     with(aggregateTile), with(aggregateTilePlain)};
+  return {"paths through a tile", "entry x path", TILE_ENTRIES,
+          7.0 * TILE_ENTRIES,     with(walkTile), with(walkTilePlain)};
 }
 
 Kernel labelSelection()
 {
-  constexpr std::size_t entries = static_cast<std::size_t>(TILE_PX) * LABELS;
   const auto paths = std::make_shared<PathData>();
   const auto with = [&](auto kernel)
   {
-    return calling(paths,
-                   [kernel](PathData& data) { kernel(data.sums.data(), LABELS, 0, data.best.data()); });
+    return calling(
+        paths, [kernel](PathData& data)
+        { kernel(data.tile, data.sums.data(), data.cost.data(), 0, data.line.data(), data.best.data()); });
   };
-  return {"best label", "entry", entries, 2.0 * entries, with(selectLabels), with(selectLabelsPlain)};
+  // Cost, sums, states read and written.
+  return {"last paths and best labels", "entry x path",       TILE_ENTRIES,
+          8.0 * TILE_ENTRIES,           with(selectFromTile), with(selectFromTilePlain)};
 }
 
 Kernel warping()

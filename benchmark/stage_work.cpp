@@ -43,9 +43,10 @@ StageWork visibility(const FrameSize& frame)
 
 StageWork aggregate(const FrameSize& frame)
 {
-  // Rows: cost read, sums written. Columns down and up: cost read, sums read and written; the steps of P2 are
-  // written once and read by each. The result is written.
-  const double volume = frame.labels * ((1.0 + WORD) + 2.0 * (1.0 + 2.0 * WORD));
+  // Rows: cost read, packed sums written. Columns: both read, and the cost once more; the steps of P2 are
+  // written once and read by each. The result is written. The sums of the first path of a strip or column
+  // stay in a core's cache.
+  const double volume = frame.labels * (2.0 + 2.0 + 1.0);
   const double steps = PLANAR + 2.0 * WORD + 3.0 * WORD;
   constexpr double paths = 4.0;
   constexpr double per_path = 8.0;  // see pathStep()

@@ -64,8 +64,10 @@ struct PathAggregator::Scratch
 {
   PathState state;
   std::vector<std::uint8_t> cost;    // the tiles of a strip, transposed
-  std::vector<std::uint16_t> sums;   // likewise
+  std::vector<std::uint16_t> sums;   // of the first path: the tiles of a strip, transposed, or of a column
+  std::vector<std::uint8_t> packed;  // of a tile of a strip
   std::vector<std::uint16_t> steps;  // [x][TILE_PX]
+  std::vector<std::uint16_t> line;   // sums of all paths
 };
 
 PathAggregator::PathAggregator() = default;
@@ -118,6 +120,7 @@ public:
     const std::size_t values = volume.largestRow();
     scratch.cost.resize(values);
     scratch.sums.resize(values);
+    scratch.packed.resize(static_cast<std::size_t>(volume.bands.labels()) * TILE_PX * TILE_PX);
     scratch.steps.resize((columns + 1) * TILE_PX * TILE_PX);
     for (std::size_t column = 0; column <= columns; ++column)
     {
@@ -133,14 +136,14 @@ public:
     {
       const LabelBand& band = volume_.bands.at(row_, column);
       transposeTile(volume_.values.data() + volume_.tileOffset(row_, column), band.count, cost(column));
-      walk(column, false);
+      walkTile(enter(column, false), sums(column));
     }
     scratch_.state.begin(volume_.bands.labels());
     for (int column = columns - 1; column >= 0; --column)
     {
-      walk(column, true);
-      transposeTile(sums(column), volume_.bands.at(row_, column).count,
-                    aggregator_.sums_.data() + volume_.tileOffset(row_, column));
+      walkBackTile(enter(column, true), sums(column), scratch_.packed.data());
+      transposeTile(scratch_.packed.data(), volume_.bands.at(row_, column).count,
+                    aggregator_.packed_.data() + volume_.tileOffset(row_, column));
     }
   }
 
@@ -164,14 +167,12 @@ private:
     transposeTile(block.data(), 1, scratch_.steps.data() + column * TILE_PX * TILE_PX);
   }
 
-  void walk(int column, bool backward) const
+  PathTile enter(int column, bool backward) const
   {
     const LabelBand& band = volume_.bands.at(row_, column);
     scratch_.state.enter(band);
     PathTile tile;
     tile.cost = cost(column);
-    tile.sums = sums(column);
-    tile.add = backward;
     tile.labels = band.count;
     tile.lines = std::min(TILE_PX, volume_.width - column * TILE_PX);
     tile.backward = backward;
@@ -182,7 +183,7 @@ private:
     tile.large_change_stride = TILE_PX;
     tile.state = scratch_.state.values();
     tile.minima = scratch_.state.minima();
-    aggregateTile(tile);
+    return tile;
   }
 
   PathAggregator& aggregator_;
@@ -201,36 +202,47 @@ public:
       : aggregator_(aggregator), volume_(volume), scratch_(scratch), label_(label), column_(column),
         small_change_penalty_(static_cast<std::uint16_t>(settings.small_change_penalty))
   {
+    std::size_t values = 0;
+    for (int row = 0; row < volume.bands.rows(); ++row)
+    {
+      values += sizeOf(row);
+    }
+    scratch.sums.resize(std::max(scratch.sums.size(), values));
+    scratch.line.resize(static_cast<std::size_t>(volume.bands.labels()) * TILE_PX);
   }
 
   void run()
   {
     const int rows = volume_.bands.rows();
     scratch_.state.begin(volume_.bands.labels());
+    std::uint16_t* sums = scratch_.sums.data();
     for (int row = 0; row < rows; ++row)
     {
-      walk(row, false);
+      walkTile(enter(row, false), sums);
+      sums += sizeOf(row);
     }
     scratch_.state.begin(volume_.bands.labels());
     for (int row = rows - 1; row >= 0; --row)
     {
-      walk(row, true);
-      select(row);
+      sums -= sizeOf(row);
+      select(row, sums);
     }
   }
 
 private:
   int linesOf(int row) const { return std::min(TILE_PX, volume_.height - row * TILE_PX); }
-  std::uint16_t* sums(int row) const { return aggregator_.sums_.data() + volume_.tileOffset(row, column_); }
+  /// Of the tile in a row.
+  std::size_t sizeOf(int row) const
+  {
+    return static_cast<std::size_t>(volume_.bands.at(row, column_).count) * TILE_PX * TILE_PX;
+  }
 
-  void walk(int row, bool backward) const
+  PathTile enter(int row, bool backward) const
   {
     const LabelBand& band = volume_.bands.at(row, column_);
     scratch_.state.enter(band);
     PathTile tile;
     tile.cost = volume_.values.data() + volume_.tileOffset(row, column_);
-    tile.sums = sums(row);
-    tile.add = true;
     tile.labels = band.count;
     tile.lines = linesOf(row);
     tile.backward = backward;
@@ -241,19 +253,20 @@ private:
     tile.large_change_stride = static_cast<std::ptrdiff_t>(aggregator_.step_stride_);
     tile.state = scratch_.state.values();
     tile.minima = scratch_.state.minima();
-    aggregateTile(tile);
+    return tile;
   }
 
-  void select(int row) const
+  void select(int row, const std::uint16_t* sums) const
   {
-    const LabelBand& band = volume_.bands.at(row, column_);
-    std::array<float, TILE_PX> best{};
+    std::array<float, static_cast<std::size_t>(TILE_PX) * TILE_PX> best{};
+    const std::uint8_t* const across = aggregator_.packed_.data() + volume_.tileOffset(row, column_);
+    selectFromTile(enter(row, true), sums, across, volume_.bands.at(row, column_).first, scratch_.line.data(),
+                   best.data());
     const int width = std::min(TILE_PX, volume_.width - column_ * TILE_PX);
     for (int line = 0; line < linesOf(row); ++line)
     {
-      selectLabels(sums(row) + static_cast<std::ptrdiff_t>(line) * band.count * TILE_PX, band.count,
-                   band.first, best.data());
-      std::copy_n(best.data(), width, label_.ptr<float>(row * TILE_PX + line) + column_ * TILE_PX);
+      std::copy_n(best.data() + static_cast<std::ptrdiff_t>(line) * TILE_PX, width,
+                  label_.ptr<float>(row * TILE_PX + line) + column_ * TILE_PX);
     }
   }
 
@@ -269,7 +282,7 @@ void PathAggregator::aggregate(const CostVolume& volume, const PathSettings& set
                                cv::Mat& label)
 {
   label.create(volume.height, volume.width, CV_32FC1);
-  sums_.resize(volume.size());
+  packed_.resize(volume.size());
   const auto each = [&](int count, const auto& body)
   {
     pool.parallelFor(0, count, 1,

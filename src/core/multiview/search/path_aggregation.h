@@ -53,7 +53,7 @@ private:
   class Strip;
   class Column;
 
-  std::vector<std::uint16_t> sums_;        // as CostVolume::values
+  std::vector<std::uint8_t> packed_;       // of both horizontal paths, as CostVolume::values
   std::size_t step_stride_ = 0;            // of a row of steps
   std::vector<std::uint16_t> step_left_;   // P2 between (x - 1, y) and (x, y)
   std::vector<std::uint16_t> step_above_;  // P2 between (x, y - 1) and (x, y)

@@ -21,9 +21,20 @@ void stepRowSimd(const StepRow& row)
   stepRowPlain(row);
 }
 
-void aggregateTileSimd(const PathTile& tile)
+void walkTileSimd(const PathTile& tile, std::uint16_t* sums)
 {
-  aggregateTilePlain(tile);
+  walkTilePlain(tile, sums);
+}
+
+void walkBackTileSimd(const PathTile& tile, const std::uint16_t* sums, std::uint8_t* packed)
+{
+  walkBackTilePlain(tile, sums, packed);
+}
+
+void selectFromTileSimd(const PathTile& tile, const std::uint16_t* sums, const std::uint8_t* across,
+                        int first_label, std::uint16_t* line, float* best)
+{
+  selectFromTilePlain(tile, sums, across, first_label, line, best);
 }
 
 void transposeBytesSimd(const std::uint8_t* source, int labels, std::uint8_t* target)
@@ -35,17 +46,13 @@ void transposeWordsSimd(const std::uint16_t* source, int labels, std::uint16_t* 
 {
   transposeTilePlain(source, labels, target);
 }
-
-void selectLabelsSimd(const std::uint16_t* sums, int labels, int first_label, float* best)
-{
-  selectLabelsPlain(sums, labels, first_label, best);
-}
 #else
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Words = hn::CappedTag<std::uint16_t, TILE_PX>;
 using WordBytes = hn::Rebind<std::uint8_t, Words>;
 using Vector = hn::Vec<Words>;
+using SignedWords = hn::RebindToSigned<Words>;
 
 void stepRowSimd(const StepRow& row)
 {
@@ -71,10 +78,11 @@ void stepRowSimd(const StepRow& row)
 }
 
 /// All labels of some paths in one line.
-template <bool ADD>
+/// @param store takes the place of each vector of L in the line, and the vector
+template <class Store>
 HWY_INLINE void lineStep(const std::uint8_t* cost, int labels, Vector small_change_penalty,
                          const std::uint16_t* large_change_penalty, std::uint16_t* state,
-                         std::uint16_t* minima, std::uint16_t* sums)
+                         std::uint16_t* minima, const Store& store)
 {
   const Words words;
   const WordBytes bytes;
@@ -93,15 +101,17 @@ HWY_INLINE void lineStep(const std::uint8_t* cost, int labels, Vector small_chan
     const auto value = hn::Add(data, hn::Sub(best, before_minimum));
     hn::StoreU(value, words, state + offset);
     least = hn::Min(least, value);
-    hn::StoreU(ADD ? hn::Add(value, hn::LoadU(words, sums + offset)) : value, words, sums + offset);
+    store(offset, value);
     below = here;
     here = above;
   }
   hn::StoreU(least, words, minima);
 }
 
-template <bool ADD>
-HWY_INLINE void aggregateLines(const PathTile& tile)
+/// @param store takes the place of a line in the tile, that of each vector of L in the line, and the vector
+/// @param finish called with each line after it
+template <class Store, class Finish>
+HWY_INLINE void walkLines(const PathTile& tile, const Store& store, const Finish& finish)
 {
   const Words words;
   const auto small_change_penalty = hn::Set(words, tile.small_change_penalty);
@@ -112,23 +122,44 @@ HWY_INLINE void aggregateLines(const PathTile& tile)
     const int line = tile.backward ? tile.lines - 1 - step : step;
     for (int i = 0; i < TILE_PX; i += lanes)
     {
-      lineStep<ADD>(tile.cost + line * line_size + i, tile.labels, small_change_penalty,
-                    tile.large_change_penalty + line * tile.large_change_stride + i, tile.state + i,
-                    tile.minima + i, tile.sums + line * line_size + i);
+      lineStep(
+          tile.cost + line * line_size + i, tile.labels, small_change_penalty,
+          tile.large_change_penalty + line * tile.large_change_stride + i, tile.state + i, tile.minima + i,
+          [&](std::ptrdiff_t offset, Vector value) HWY_ATTR { store(line * line_size, i + offset, value); });
     }
+    finish(line);
   }
 }
 
-void aggregateTileSimd(const PathTile& tile)
+void walkTileSimd(const PathTile& tile, std::uint16_t* sums)
 {
-  if (tile.add)
-  {
-    aggregateLines<true>(tile);
-  }
-  else
-  {
-    aggregateLines<false>(tile);
-  }
+  const Words words;
+  walkLines(
+      tile,
+      [&](std::ptrdiff_t first, std::ptrdiff_t at, Vector value) HWY_ATTR
+      { hn::StoreU(value, words, sums + first + at); },
+      [](int) {});
+}
+
+/// In units, rounded, and not yet limited to a byte.
+HWY_INLINE hn::Vec<SignedWords> inUnits(Vector one, Vector opposite)
+{
+  const auto half = hn::Set(Words(), PACKED_UNIT / 2);
+  return hn::BitCast(SignedWords(), hn::ShiftRight<PACKED_BITS>(hn::Add(hn::Add(one, half), opposite)));
+}
+
+void walkBackTileSimd(const PathTile& tile, const std::uint16_t* sums, std::uint8_t* packed)
+{
+  const Words words;
+  const WordBytes bytes;
+  walkLines(
+      tile,
+      [&](std::ptrdiff_t first, std::ptrdiff_t at, Vector value) HWY_ATTR
+      {
+        const auto units = inUnits(value, hn::LoadU(words, sums + first + at));
+        hn::StoreU(hn::DemoteTo(bytes, units), bytes, packed + first + at);
+      },
+      [](int) {});
 }
 
 /// As many rows as a vector has parts of 128 bits, `step` apart, a part of each.
@@ -212,7 +243,8 @@ void transposeWordsSimd(const std::uint16_t* source, int labels, std::uint16_t* 
   transposeLabels(source, labels, target);
 }
 
-void selectLabelsSimd(const std::uint16_t* sums, int labels, int first_label, float* best)
+/// The label of least sum in a line, with the position between labels from a V fitted to the neighbours.
+HWY_INLINE void selectLabelsOf(const std::uint16_t* sums, int labels, int first_label, float* best)
 {
   const Words words;
   HWY_ALIGN std::uint16_t label_of[TILE_PX];
@@ -258,6 +290,23 @@ void selectLabelsSimd(const std::uint16_t* sums, int labels, int first_label, fl
   }
 }
 
+void selectFromTileSimd(const PathTile& tile, const std::uint16_t* sums, const std::uint8_t* across,
+                        int first_label, std::uint16_t* line, float* best)
+{
+  const Words words;
+  const WordBytes bytes;
+  const auto most = hn::Set(words, MAX_PACKED);
+  walkLines(
+      tile,
+      [&](std::ptrdiff_t first, std::ptrdiff_t at, Vector value) HWY_ATTR
+      {
+        const auto units = hn::BitCast(words, inUnits(value, hn::LoadU(words, sums + first + at)));
+        const auto others = hn::PromoteTo(words, hn::LoadU(bytes, across + first + at));
+        hn::StoreU(hn::Add(hn::Min(units, most), others), words, line + at);
+      },
+      [&](int y) HWY_ATTR
+      { selectLabelsOf(line, tile.labels, first_label, best + static_cast<std::ptrdiff_t>(y) * TILE_PX); });
+}
 #endif  // HWY_TARGET == HWY_SCALAR
 }  // namespace HWY_NAMESPACE
 }  // namespace light_field_depth::multiview
@@ -267,19 +316,31 @@ HWY_AFTER_NAMESPACE();
 namespace light_field_depth::multiview
 {
 HWY_EXPORT(stepRowSimd);
-HWY_EXPORT(aggregateTileSimd);
+HWY_EXPORT(walkTileSimd);
+HWY_EXPORT(walkBackTileSimd);
+HWY_EXPORT(selectFromTileSimd);
 HWY_EXPORT(transposeBytesSimd);
 HWY_EXPORT(transposeWordsSimd);
-HWY_EXPORT(selectLabelsSimd);
 
 void stepRow(const StepRow& row)
 {
   HWY_DYNAMIC_DISPATCH(stepRowSimd)(row);
 }
 
-void aggregateTile(const PathTile& tile)
+void walkTile(const PathTile& tile, std::uint16_t* sums)
 {
-  HWY_DYNAMIC_DISPATCH(aggregateTileSimd)(tile);
+  HWY_DYNAMIC_DISPATCH(walkTileSimd)(tile, sums);
+}
+
+void walkBackTile(const PathTile& tile, const std::uint16_t* sums, std::uint8_t* packed)
+{
+  HWY_DYNAMIC_DISPATCH(walkBackTileSimd)(tile, sums, packed);
+}
+
+void selectFromTile(const PathTile& tile, const std::uint16_t* sums, const std::uint8_t* across,
+                    int first_label, std::uint16_t* line, float* best)
+{
+  HWY_DYNAMIC_DISPATCH(selectFromTileSimd)(tile, sums, across, first_label, line, best);
 }
 
 void transposeTile(const std::uint8_t* source, int labels, std::uint8_t* target)
@@ -290,11 +351,6 @@ void transposeTile(const std::uint8_t* source, int labels, std::uint8_t* target)
 void transposeTile(const std::uint16_t* source, int labels, std::uint16_t* target)
 {
   HWY_DYNAMIC_DISPATCH(transposeWordsSimd)(source, labels, target);
-}
-
-void selectLabels(const std::uint16_t* sums, int labels, int first_label, float* best)
-{
-  HWY_DYNAMIC_DISPATCH(selectLabelsSimd)(sums, labels, first_label, best);
 }
 
 }  // namespace light_field_depth::multiview

@@ -33,8 +33,6 @@ void stepRowPlain(const StepRow& row);
 struct PathTile
 {
   const std::uint8_t* cost = nullptr;  ///< [line][label][TILE_PX]
-  std::uint16_t* sums = nullptr;       ///< the same shape; L is stored or added
-  bool add = false;
   int labels = 0;
   int lines = TILE_PX;
   bool backward = false;  ///< begin with the last of the lines
@@ -48,20 +46,35 @@ struct PathTile
   std::uint16_t* minima = nullptr;  ///< [TILE_PX], the least of the state
 };
 
-void aggregateTile(const PathTile& tile);
-void aggregateTilePlain(const PathTile& tile);
+/// Sums of two opposite paths are counted in units of PACKED_UNIT, to the nearest, at most MAX_PACKED of
+/// them, so that bytes hold them. Labels that one pair of paths finds so much worse than others are seldom
+/// chosen, and finer sums do not make the map better (docs/experiments.md).
+constexpr int PACKED_BITS = 2;
+constexpr int PACKED_UNIT = 1 << PACKED_BITS;
+constexpr int MAX_PACKED = 255;
+
+/// Stores L. @param sums of the shape of the costs, as all below
+void walkTile(const PathTile& tile, std::uint16_t* sums);
+void walkTilePlain(const PathTile& tile, std::uint16_t* sums);
+
+/// Packs the sum of L and of what walkTile() stored of the opposite path.
+void walkBackTile(const PathTile& tile, const std::uint16_t* sums, std::uint8_t* packed);
+void walkBackTilePlain(const PathTile& tile, const std::uint16_t* sums, std::uint8_t* packed);
+
+/// Likewise, but for the last pair of paths: the label of the least sum of both pairs, with the position
+/// between labels from a V fitted to the neighbours; the lowest of several.
+/// @param across what walkBackTile() packed of the other pair  @param first_label of the band
+/// @param line [labels][TILE_PX], overwritten  @param best [line][TILE_PX]
+void selectFromTile(const PathTile& tile, const std::uint16_t* sums, const std::uint8_t* across,
+                    int first_label, std::uint16_t* line, float* best);
+void selectFromTilePlain(const PathTile& tile, const std::uint16_t* sums, const std::uint8_t* across,
+                         int first_label, std::uint16_t* line, float* best);
 
 /// [line][label][i] -> [i][label][line]: the same tile for the paths across.
 void transposeTile(const std::uint8_t* source, int labels, std::uint8_t* target);
 void transposeTile(const std::uint16_t* source, int labels, std::uint16_t* target);
 void transposeTilePlain(const std::uint8_t* source, int labels, std::uint8_t* target);
 void transposeTilePlain(const std::uint16_t* source, int labels, std::uint16_t* target);
-
-/// The label of least sum in a line, with the position between labels from a V fitted to the neighbours; the
-/// lowest of several.
-/// @param sums [label][TILE_PX]  @param best [TILE_PX], first_label for the first label of the line
-void selectLabels(const std::uint16_t* sums, int labels, int first_label, float* best);
-void selectLabelsPlain(const std::uint16_t* sums, int labels, int first_label, float* best);
 
 }  // namespace light_field_depth::multiview
 

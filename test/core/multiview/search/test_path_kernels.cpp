@@ -57,39 +57,113 @@ TEST_P(PathKernels, StepsEqualThePlainVersion)
   EXPECT_EQ(*std::min_element(plain.begin(), plain.end()), 68);
 }
 
+/// A seed with many equal sums among which to choose.
+constexpr unsigned ALIKE = 0;
+
+/// The walks through a tile of one kind.
+struct Walks
+{
+  std::vector<std::uint16_t> stored;
+  std::vector<std::uint8_t> packed;
+  std::vector<float> best;
+  std::vector<std::uint16_t> state;  // after the last one
+  std::vector<std::uint16_t> minima;
+
+  friend bool operator==(const Walks& left, const Walks& right)
+  {
+    return left.stored == right.stored && left.packed == right.packed && left.best == right.best &&
+           left.state == right.state && left.minima == right.minima;
+  }
+};
+
+template <class Walk, class Back, class Select>
+Walks walksOf(PathTile tile, unsigned seed, Walk walk, Back back, Select select)
+{
+  const auto size = static_cast<std::size_t>(tile.labels) * TILE_AREA;
+  Walks walks{std::vector<std::uint16_t>(size),
+              std::vector<std::uint8_t>(size),
+              std::vector<float>(TILE_AREA),
+              {},
+              {}};
+  std::vector<std::uint16_t> line(static_cast<std::size_t>(tile.labels) * TILE_PX);
+  const auto fresh = [&](TileBuffers& buffers)
+  {
+    tile.state = buffers.state.data() + TILE_PX;
+    tile.minima = buffers.minima.data();
+    return tile;
+  };
+  TileBuffers first(tile.labels, seed);
+  walk(fresh(first), walks.stored.data());
+  TileBuffers second(tile.labels, seed + 3);
+  back(fresh(second), first.sums.data(), walks.packed.data());
+  TileBuffers third(tile.labels, seed + 6);
+  if (seed == ALIKE)
+  {
+    std::fill(third.state.begin() + TILE_PX, third.state.end() - TILE_PX, std::uint16_t{0});
+    std::fill(third.minima.begin(), third.minima.end(), std::uint16_t{0});
+    third.sums = randomValues<std::uint16_t>(size, 0, 12, seed);
+  }
+  const auto across = seed == ALIKE ? std::vector<std::uint8_t>(size) : walks.packed;
+  select(fresh(third), third.sums.data(), across.data(), 7, line.data(), walks.best.data());
+  walks.state = third.state;
+  walks.minima = third.minima;
+  return walks;
+}
+
 TEST_P(PathKernels, TilesEqualThePlainVersion)
 {
   for (const int labels : {1, 2, 29})
   {
-    const auto cost = randomValues<std::uint8_t>(static_cast<std::size_t>(labels) * TILE_AREA, 0, 240, 1);
-    const auto large_change_penalty = randomValues<std::uint16_t>(TILE_AREA, 45, 1000, 2);
-    for (const bool backward : {false, true})
+    for (const unsigned seed : {ALIKE, 3U})
     {
-      for (const int lines : {TILE_PX, 13})
+      const auto cost = randomValues<std::uint8_t>(static_cast<std::size_t>(labels) * TILE_AREA, 0,
+                                                   seed == ALIKE ? 0 : 240, 1);
+      const auto large_change_penalty = randomValues<std::uint16_t>(TILE_AREA, 45, 1000, 2);
+      for (const bool backward : {false, true})
       {
-        TileBuffers simd(labels, 3);
-        TileBuffers plain(labels, 3);
-        const auto tile = [&](TileBuffers& buffers)
+        for (const int lines : {TILE_PX, 13})
         {
-          return PathTile{cost.data(),
-                          buffers.sums.data(),
-                          backward,
-                          labels,
-                          lines,
-                          backward,
-                          30,
-                          large_change_penalty.data(),
-                          TILE_PX,
-                          buffers.state.data() + TILE_PX,
-                          buffers.minima.data()};
-        };
-        aggregateTile(tile(simd));
-        aggregateTilePlain(tile(plain));
-        EXPECT_EQ(simd.sums, plain.sums) << labels << " labels, " << lines << " lines";
-        EXPECT_EQ(simd.state, plain.state);
-        EXPECT_EQ(simd.minima, plain.minima);
+          PathTile tile;
+          tile.cost = cost.data();
+          tile.labels = labels;
+          tile.lines = lines;
+          tile.backward = backward;
+          tile.small_change_penalty = 30;
+          tile.large_change_penalty = large_change_penalty.data();
+          tile.large_change_stride = TILE_PX;
+          const Walks simd = walksOf(tile, seed, walkTile, walkBackTile, selectFromTile);
+          const Walks plain = walksOf(tile, seed, walkTilePlain, walkBackTilePlain, selectFromTilePlain);
+          EXPECT_TRUE(simd == plain) << labels << " labels, " << lines << " lines";
+        }
       }
     }
+  }
+}
+
+TEST_P(PathKernels, SumsArePackedInUnitsToTheNearestUpToTheMost)
+{
+  std::array<std::uint8_t, TILE_AREA> cost{};
+  cost.fill(1);
+  std::array<std::uint16_t, TILE_PX> penalty{};
+  std::array<std::uint16_t, 3 * TILE_PX> state{};
+  std::array<std::uint16_t, TILE_PX> minima{};
+  std::vector<std::uint16_t> sums(TILE_AREA);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    sums[i] = static_cast<std::uint16_t>(2 * i);
+  }
+  PathTile tile;
+  tile.cost = cost.data();
+  tile.labels = 1;
+  tile.large_change_penalty = penalty.data();
+  tile.state = state.data() + TILE_PX;
+  tile.minima = minima.data();
+  std::array<std::uint8_t, TILE_AREA> packed{};
+  walkBackTile(tile, sums.data(), packed.data());
+  for (std::size_t i = 0; i < packed.size(); ++i)
+  {
+    const auto value = static_cast<int>(2 * i) + 1;  // one label: L is its cost
+    ASSERT_EQ(packed[i], std::min((value + PACKED_UNIT / 2) / PACKED_UNIT, MAX_PACKED)) << i;
   }
 }
 
@@ -110,23 +184,6 @@ TEST_P(PathKernels, TransposedTilesEqualThePlainVersion)
   EXPECT_EQ(simd_words, plain_words);
   transposeTile(simd_words.data(), labels, plain_words.data());
   EXPECT_EQ(plain_words, words);
-}
-
-TEST_P(PathKernels, LabelsEqualThePlainVersion)
-{
-  for (const int labels : {1, 2, 29})
-  {
-    for (const int highest : {3, 65000})  // the first with many equal sums
-    {
-      const auto sums =
-          randomValues<std::uint16_t>(static_cast<std::size_t>(labels) * TILE_PX, 0, highest, 6);
-      std::array<float, TILE_PX> simd{};
-      std::array<float, TILE_PX> plain{};
-      selectLabels(sums.data(), labels, 7, simd.data());
-      selectLabelsPlain(sums.data(), labels, 7, plain.data());
-      EXPECT_EQ(simd, plain) << labels << " labels";
-    }
-  }
 }
 
 }  // namespace
