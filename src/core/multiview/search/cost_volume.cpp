@@ -70,9 +70,18 @@ std::size_t CostVolume::largestRow() const
   return largest;
 }
 
+/// Neighbouring tiles first .. end - 1 of a row of tiles that try a label.
+struct TileRun
+{
+  int label = 0;
+  int first = 0;
+  int end = 0;
+};
+
 /// Memory of one chunk of rows at work.
 struct CostVolumeBuilder::Scratch
 {
+  std::vector<TileRun> runs;                  // of the present row of tiles
   std::vector<SampleRows> samples;            // one a view
   std::vector<const std::uint8_t*> pointers;  // one a view, for one label
   std::vector<const std::uint8_t*> surfaces;
@@ -163,44 +172,58 @@ struct CostVolumeBuilder::RowJob
     scratch.cost.resize(static_cast<std::size_t>(volume.bands.columns()) * TILE_PX + VECTOR_OVERRUN);
   }
 
+  /// The rows of a row of tiles one after the other.
   void run(int y) const
   {
+    if (y % TILE_PX == 0)
+    {
+      findRuns(y / TILE_PX);
+    }
     if (task.observer != nullptr && task.observer->wants(y))
     {
       runObserved(y);
       return;
     }
-    const int columns = volume.bands.columns();
-    for (int label = 0; label < labels.count; ++label)
+    int sampled = -1;  // label
+    for (const TileRun& run : scratch.runs)
     {
-      bool sampled = false;
-      for (int column = 0; column < columns; ++column)
+      if (run.label != sampled)
       {
-        int end = column;
-        while (end < columns && isWanted(y / TILE_PX, end, label))
-        {
-          ++end;
-        }
-        if (end == column)
-        {
-          continue;
-        }
-        if (!sampled)
-        {
-          sample(label, y);
-          sampled = true;
-        }
-        computeCost(label, y, column, end);
-        for (int tile = column; tile < end; ++tile)
-        {
-          store(label, y, tile, scratch.cost.data() + static_cast<std::ptrdiff_t>(tile - column) * TILE_PX);
-        }
-        column = end;
+        sample(run.label, y);
+        sampled = run.label;
+      }
+      computeCost(run.label, y, run.first, run.end);
+      for (int tile = run.first; tile < run.end; ++tile)
+      {
+        store(run.label, y, tile,
+              scratch.cost.data() + static_cast<std::ptrdiff_t>(tile - run.first) * TILE_PX);
       }
     }
   }
 
 private:
+  void findRuns(int row) const
+  {
+    const int columns = volume.bands.columns();
+    scratch.runs.clear();
+    for (int label = 0; label < labels.count; ++label)
+    {
+      for (int first = 0; first < columns; ++first)
+      {
+        int end = first;
+        while (end < columns && isWanted(row, end, label))
+        {
+          ++end;
+        }
+        if (end > first)
+        {
+          scratch.runs.push_back({label, first, end});
+          first = end;  // which does not try it
+        }
+      }
+    }
+  }
+
   void sample(int label, int y) const
   {
     for (std::size_t i = 0; i < scratch.samples.size(); ++i)
@@ -211,19 +234,16 @@ private:
     {
       return;
     }
-    const double disparity = labels.disparity(static_cast<float>(label));
     for (std::size_t i = 0; i < scratch.samples.size(); ++i)
     {
       const PreparedView& view = views.views[i];
-      const double shift_x = visibleShift(view.offset_px.x - disparity * view.steps.x, views.width());
-      const double shift_y = visibleShift(view.offset_px.y - disparity * view.steps.y, views.height());
-      const auto dx = static_cast<int>(std::floor(shift_x + 0.5));
-      const auto dy = static_cast<int>(std::floor(shift_y + 0.5));
+      const LabelShift& shift = scratch.samples[i].shift(label);
+      const int row = y + shift.nearest_dy;
       if (surfaces != nullptr)
       {
-        scratch.surfaces[i] = surfaces->row(static_cast<int>(i), y + dy) + dx;
+        scratch.surfaces[i] = surfaces->row(static_cast<int>(i), row) + shift.nearest_dx;
       }
-      scratch.masked[i] = view.masked.width() > 0 ? view.masked.row(y + dy) + dx : nullptr;
+      scratch.masked[i] = view.masked.width() > 0 ? view.masked.row(row) + shift.nearest_dx : nullptr;
     }
   }
 

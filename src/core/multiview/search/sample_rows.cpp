@@ -40,12 +40,14 @@ void SampleRows::reset(const PreparedView& view, const LabelSpace& labels)
     const int phase_x = modulo(x, SUBPIXEL_PHASES);
     const int phase_y = modulo(y, SUBPIXEL_PHASES);
     const LabelShift shift{(x - phase_x) / SUBPIXEL_PHASES, (y - phase_y) / SUBPIXEL_PHASES,
-                           phaseIndex(phase_x, phase_y)};
+                           phaseIndex(phase_x, phase_y), cvFloor(shift_x + 0.5), cvFloor(shift_y + 0.5)};
     first_dy_ = std::min(first_dy_, shift.dy);
     last_dy = std::max(last_dy, shift.dy);
     shifts_.push_back(shift);
   }
   ring_rows_ = last_dy - first_dy_ + 1;
+  asked_y_ = 0;
+  ring_begin_ = modulo(first_dy_, ring_rows_);
   row_in_slot_.assign(phases_.size() * static_cast<std::size_t>(ring_rows_), NO_ROW);
   values_.resize(row_in_slot_.size() * stride_ * static_cast<std::size_t>(image_->channels()) + OVERRUN);
   scratch_.resize(stride_ + OVERRUN);
@@ -71,18 +73,26 @@ const std::uint8_t* SampleRows::row(int label, int y)
   {
     return image_->row(y + where.dy) + where.dx;
   }
-  return slot(where.phase, y + where.dy) + image_->pad() + where.dx;
+  return slot(where, y) + image_->pad() + where.dx;
 }
 
-std::uint8_t* SampleRows::slot(int phase, int row)
+std::uint8_t* SampleRows::slot(const LabelShift& where, int y)
 {
-  const std::size_t index = static_cast<std::size_t>(phase) * static_cast<std::size_t>(ring_rows_) +
-                            static_cast<std::size_t>(modulo(row, ring_rows_));
+  if (y != asked_y_)
+  {
+    asked_y_ = y;
+    ring_begin_ = modulo(y + first_dy_, ring_rows_);
+  }
+  const int row = y + where.dy;
+  const int place = ring_begin_ + where.dy - first_dy_;
+  const auto phase = static_cast<std::size_t>(where.phase);
+  const std::size_t index = phase * static_cast<std::size_t>(ring_rows_) +
+                            static_cast<std::size_t>(place < ring_rows_ ? place : place - ring_rows_);
   std::uint8_t* const values =
       values_.data() + index * stride_ * static_cast<std::size_t>(image_->channels());
   if (row_in_slot_[index] != row)
   {
-    interpolate(phases_[static_cast<std::size_t>(phase)], row, values);
+    interpolate(phases_[phase], row, values);
     row_in_slot_[index] = row;
   }
   return values;

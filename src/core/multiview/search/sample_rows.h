@@ -19,7 +19,9 @@ struct LabelShift
 {
   int dx = 0;
   int dy = 0;
-  int phase = 0;  ///< into the distinct fractions of this view
+  int phase = 0;       ///< into the distinct fractions of this view
+  int nearest_dx = 0;  ///< to the nearest whole pixel
+  int nearest_dy = 0;
 };
 
 /// Rows of one view, resampled to the fractions of a pixel that its labels need, each computed once as the
@@ -44,7 +46,7 @@ private:
     int y = 0;
   };
   int phaseIndex(int x, int y);
-  std::uint8_t* slot(int phase, int row);
+  std::uint8_t* slot(const LabelShift& where, int y);
   void interpolate(const Phase& phase, int row, std::uint8_t* values);
 
   const PlanarImage* image_ = nullptr;
@@ -52,6 +54,8 @@ private:
   std::vector<Phase> phases_;
   int first_dy_ = 0;
   int ring_rows_ = 1;
+  int asked_y_ = 0;     ///< the row of the last call
+  int ring_begin_ = 0;  ///< place in the rings of row asked_y_ + first_dy_
   std::size_t stride_ = 0;
   std::vector<int> row_in_slot_;
   std::vector<std::uint8_t> values_;
