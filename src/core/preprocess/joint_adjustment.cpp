@@ -9,6 +9,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "core/preprocess/normal_equations.h"
+
 namespace light_field_depth
 {
 namespace
@@ -49,22 +51,6 @@ cv::Mat withSlopes(const cv::Mat& grey)
   return result;
 }
 
-/// Upper triangle of H and the right side, of H x = -b.
-struct Equations
-{
-  explicit Equations(int count)
-      : size(count), matrix(static_cast<std::size_t>(count) * static_cast<std::size_t>(count), 0.0F),
-        side(static_cast<std::size_t>(count), 0.0F)
-  {
-  }
-  float* row(int i) { return matrix.data() + static_cast<std::ptrdiff_t>(i) * size; }
-  const float* row(int i) const { return matrix.data() + static_cast<std::ptrdiff_t>(i) * size; }
-
-  int size;
-  std::vector<float> matrix;
-  std::vector<float> side;
-};
-
 /// What the views say at one point.
 struct PointView
 {
@@ -73,6 +59,13 @@ struct PointView
   float along = 0.0F;  ///< change of the difference with the disparity
   std::array<float, PER_VIEW> own = {};
   float ratio = 0.0F;  ///< change with the ratio of steps
+};
+
+/// The equation of a point's disparity without the other unknowns.
+struct Alone
+{
+  float own = 1.0F;
+  float side = 0.0F;
 };
 
 class Adjuster
@@ -96,6 +89,7 @@ public:
       }
     }
     unknowns_ = PER_VIEW * static_cast<int>(others_.size()) + 1;
+    stride_ = NormalEquations::strideOf(unknowns_);
     reference_ = others_.empty() ? cv::Mat() : images_[field_.reference_index];
   }
 
@@ -104,8 +98,9 @@ public:
     const float scale = differenceScale();
     const int count = static_cast<int>(adjustment_.points.size());
     const int chunks = (count + POINTS_PER_CHUNK - 1) / POINTS_PER_CHUNK;
-    std::vector<Equations> parts(static_cast<std::size_t>(chunks), Equations(unknowns_));
-    elimination_.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(unknowns_ + 1), 0.0F);
+    std::vector<NormalEquations> parts(static_cast<std::size_t>(chunks), NormalEquations(unknowns_));
+    couplings_.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(stride_), 0.0F);
+    alone_.resize(static_cast<std::size_t>(count));
     pool_.parallelFor(0, count, POINTS_PER_CHUNK,
                       [&](int first, int last)
                       {
@@ -232,9 +227,9 @@ private:
   }
 
   /// Adds one point, its disparity eliminated.
-  void addPoint(int index, float scale, Equations& equations)
+  void addPoint(int index, float scale, NormalEquations& equations)
   {
-    float* const cross = elimination_.data() + static_cast<std::ptrdiff_t>(index) * (unknowns_ + 1);
+    float* const coupling = couplings_.data() + static_cast<std::ptrdiff_t>(index) * stride_;
     const AdjustedPoint& point = adjustment_.points[static_cast<std::size_t>(index)];
     const int ratio = unknowns_ - 1;
     float own = 1e-3F * scale * scale;
@@ -259,32 +254,22 @@ private:
           row[first + b] += weighted * seen.own[static_cast<std::size_t>(b)];
         }
         row[ratio] += weighted * seen.ratio;
-        equations.side[static_cast<std::size_t>(unknown)] += weighted * seen.difference;
-        cross[unknown] = weighted * seen.along;
+        equations.side(unknown) += weighted * seen.difference;
+        coupling[unknown] = weighted * seen.along;
       }
       equations.row(ratio)[ratio] += seen.weight * seen.ratio * seen.ratio;
-      equations.side[static_cast<std::size_t>(ratio)] += seen.weight * seen.ratio * seen.difference;
-      cross[ratio] += seen.weight * seen.ratio * seen.along;
+      equations.side(ratio) += seen.weight * seen.ratio * seen.difference;
+      coupling[ratio] += seen.weight * seen.ratio * seen.along;
     }
-    for (int a = 0; a < unknowns_; ++a)
-    {
-      const float part = cross[a] / own;
-      float* const row = equations.row(a);
-      for (int b = a; b < unknowns_; ++b)
-      {
-        row[b] -= part * cross[b];
-      }
-      equations.side[static_cast<std::size_t>(a)] -= part * side;
-      cross[a] = part;
-    }
-    cross[unknowns_] = side / own;
+    equations.eliminate(coupling, own, side);
+    alone_[static_cast<std::size_t>(index)] = {own, side};
   }
 
-  std::vector<double> solve(const std::vector<Equations>& parts, float scale) const
+  std::vector<double> solve(const std::vector<NormalEquations>& parts, float scale) const
   {
     cv::Mat matrix(unknowns_, unknowns_, CV_64FC1, cv::Scalar(0.0));
     cv::Mat side(unknowns_, 1, CV_64FC1, cv::Scalar(0.0));
-    for (const Equations& part : parts)
+    for (const NormalEquations& part : parts)
     {
       for (int a = 0; a < unknowns_; ++a)
       {
@@ -292,7 +277,7 @@ private:
         {
           matrix.at<double>(a, b) += part.row(a)[b];
         }
-        side.at<double>(a) -= part.side[static_cast<std::size_t>(a)];
+        side.at<double>(a) -= part.side(a);
       }
     }
     cv::completeSymm(matrix, false);
@@ -337,12 +322,13 @@ private:
     const float most = MAX_MOTION_PX / widest_;
     for (std::size_t i = 0; i < adjustment_.points.size(); ++i)
     {
-      const float* const cross = elimination_.data() + i * static_cast<std::size_t>(unknowns_ + 1);
-      float sum = cross[unknowns_];
+      const float* const coupling = couplings_.data() + i * static_cast<std::size_t>(stride_);
+      float sum = alone_[i].side;
       for (int a = 0; a < unknowns_; ++a)
       {
-        sum += cross[a] * static_cast<float>(change[static_cast<std::size_t>(a)]);
+        sum += coupling[a] * static_cast<float>(change[static_cast<std::size_t>(a)]);
       }
+      sum /= alone_[i].own;
       adjustment_.points[i].disparity -= std::clamp(sum, -most, most);
     }
     for (std::size_t i = 0; i < others_.size(); ++i)
@@ -367,7 +353,9 @@ private:
   float expected_px_;
   float widest_ = 0.0F;
   int unknowns_ = 0;
-  std::vector<float> elimination_;  ///< for each point how its disparity follows the unknowns
+  int stride_ = 0;                ///< of couplings_
+  std::vector<float> couplings_;  ///< of each point's disparity with the unknowns
+  std::vector<Alone> alone_;      ///< of each point
 };
 
 }  // namespace
