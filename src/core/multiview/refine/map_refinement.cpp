@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/multiview/refine/known_around.h"
+
 namespace light_field_depth::multiview
 {
 namespace
@@ -109,6 +111,10 @@ void MapRefinement::run(const RefinementInput& input, const RefinementSettings& 
         i == 1 && !is_last && noise_.value_variance <= settings.one_channel_max_variance;
     linearize(input, linearization, discount, more, context, disparity);
     const StageTimer timer(context, "smooth");
+    if (i == 1)
+    {
+      bringToKnownAround(linearization_.weight, context.pool, disparity);
+    }
     smoothing.follow_slopes = is_last;
     smoother_.run(linearization_.weight, linearization_.target, smoothing, context.pool, disparity);
     keepInRange(input.range, start, context.pool, disparity);
