@@ -303,7 +303,7 @@ Dataset readDataset(const fs::path& folder, const DatasetOptions& options)
     throw InputError("The frame '" + *options.frame + "' is asked for, but '" + folder.string() +
                      "' holds a single light field; leave --frame out.");
   }
-  ViewStore store(description.views, options.threads);
+  ViewStore store(description.views, options.threads, options.max_megapixels);
   settleGrid(description, options, store);
   if (options.camera.baseline_m)
   {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -126,8 +127,13 @@ std::string imageFormatsText()
   return "PNG, JPEG, TIFF, BMP, PGM, PPM, WebP or EXR";
 }
 
-cv::Mat readImage(const std::filesystem::path& path, cv::Mat* mask)
+cv::Mat readImage(const std::filesystem::path& path, cv::Mat* mask, double max_megapixels)
 {
+  const auto require_pixels = [&](const cv::Size& size)
+  {
+    requirePixels(size, max_megapixels, "The image '" + path.string() + "'",
+                  "Reduce it, or raise --max-megapixels.");
+  };
   const std::string content = readFile(path);
   if (content.empty())
   {
@@ -143,12 +149,17 @@ cv::Mat readImage(const std::filesystem::path& path, cv::Mat* mask)
     throw InputError("The image '" + path.string() +
                      "' is damaged: a part of the picture cannot be decoded; copy it again or remove it.");
   }
+  if (const std::optional<cv::Size> size = encodedSize(content))
+  {
+    require_pixels(*size);
+  }
   cv::Mat image = decode(content);
   if (image.empty())
   {
     throw InputError("The image '" + path.string() + "' cannot be decoded as " + imageFormatsText() +
                      "; it is damaged or of another format.");
   }
+  require_pixels(image.size());
   if (image.depth() != CV_8U && image.depth() != CV_16U && image.depth() != CV_32F)
   {
     throw InputError("The image '" + path.string() +

@@ -12,7 +12,8 @@
 
 namespace light_field_depth
 {
-ViewStore::ViewStore(std::vector<ViewFile>& views, int threads) : pool_(threads)
+ViewStore::ViewStore(std::vector<ViewFile>& views, int threads, double max_megapixels)
+    : max_megapixels_(max_megapixels), pool_(threads)
 {
   for (std::size_t i = 0; i < views.size(); ++i)
   {
@@ -80,7 +81,7 @@ void ViewStore::readTables(const std::vector<std::size_t>& wanted)
     {
       continue;
     }
-    const cv::Mat table = readImage(view.path);
+    const cv::Mat table = readImage(view.path, nullptr, max_megapixels_);
     if (table.cols % view.part.grid.width != 0 || table.rows % view.part.grid.height != 0)
     {
       throw InputError("The image '" + view.path.string() + "' of " + std::to_string(table.cols) + " x " +
@@ -98,7 +99,7 @@ cv::Mat ViewStore::read(const ViewFile& view, cv::Mat& mask) const
   {
     return extractPart(tables_.at(view.path), view.part);
   }
-  cv::Mat image = readImage(view.path, &mask);
+  cv::Mat image = readImage(view.path, &mask, max_megapixels_);
   if (!view.warp)
   {
     return image;

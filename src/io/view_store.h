@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "io/folder_description.h"
+#include "light_field_depth/core/input_limits.h"
 #include "light_field_depth/core/thread_pool.h"
 
 namespace light_field_depth
@@ -20,7 +21,8 @@ class ViewStore
 {
 public:
   /// Gives the views their ids. @param threads 0 takes one per processor
-  ViewStore(std::vector<ViewFile>& views, int threads);
+  /// @param max_megapixels of an image file
+  ViewStore(std::vector<ViewFile>& views, int threads, double max_megapixels = InputLimits().megapixels);
 
   /// Decodes what is not there yet; the images are CV_8U or CV_16U, grey or BGR. @param ids ViewFile::id
   /// @throw InputError of the first view that cannot be decoded
@@ -43,6 +45,7 @@ private:
   void encodeFloats(const std::vector<std::size_t>& ids);
 
   std::vector<ViewFile> views_;
+  double max_megapixels_;
   std::optional<float> white_;  ///< of linear floats
   std::map<std::filesystem::path, cv::Mat> tables_;
   std::vector<cv::Mat> images_;

@@ -22,6 +22,7 @@ AssemblerOptions assemblerOptions(const NodeParameters& parameters)
   options.rectify = parameters.rectify;
   options.mask_black = parameters.mask_black;
   options.decimation = parameters.decimation;
+  options.max_megapixels = parameters.limits.megapixels;
   return options;
 }
 
@@ -35,7 +36,8 @@ DepthNode::Implementation::Implementation(const ros::NodeHandle& node_handle,
       queue_(queueCapacity(parameters_)),
       input_(
           node_handle, private_node_handle, parameters_,
-          [this](FrameSet set) { queue_.push(std::move(set)); }, [this] { queue_.setHeldBack(false); }),
+          [this](FrameSet set) { queue_.push(std::move(set)); }, [this] { queue_.setHeldBack(false); },
+          [this](const std::string& sentence) { diagnostics_.warn(sentence); }),
       pipeline_(parameters_.threads),
       assembler_(parameters_.array, parameters_.calibration, assemblerOptions(parameters_), pipeline_.pool()),
       result_watch_(parameters_.check_order),

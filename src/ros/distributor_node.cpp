@@ -90,9 +90,10 @@ public:
       : node_handle_(node_handle), private_node_handle_(private_node_handle),
         parameters_(readSetParameters(private_node_handle, defaults())),
         workers_(readWorkers(private_node_handle)), ledger_(workers_.size()),
-        waiting_(queueCapacity(parameters_)), input_(
-                                                  node_handle, private_node_handle, parameters_,
-                                                  [this](FrameSet set) { take(std::move(set)); }, [] {})
+        waiting_(queueCapacity(parameters_)),
+        input_(
+            node_handle, private_node_handle, parameters_, [this](FrameSet set) { take(std::move(set)); },
+            [] {}, [](const std::string& sentence) { ROS_WARN_STREAM_THROTTLE(WARNING_PERIOD_S, sentence); })
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const std::string& worker : workers_)

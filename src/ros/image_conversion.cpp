@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include <sensor_msgs/image_encodings.h>
@@ -106,6 +108,11 @@ void checkLayout(const sensor_msgs::Image& message, const Encoding& encoding, co
   }
 }
 
+void checkPixels(const cv::Size& size, double max_megapixels, const std::string& view_name)
+{
+  requirePixels(size, max_megapixels, view_name + ": the image", "Reduce it, or raise max_megapixels.");
+}
+
 void keepMask(const cv::Mat& image, cv::Mat* mask)
 {
   if (mask != nullptr)
@@ -166,7 +173,8 @@ cv::Mat inHostOrder(const cv::Mat& image, const sensor_msgs::Image& message)
 
 }  // namespace
 
-cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name, cv::Mat* mask)
+cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name, cv::Mat* mask,
+                         double max_megapixels)
 {
   const Encoding* const encoding = findEncoding(message.encoding);
   if (encoding == nullptr)
@@ -175,6 +183,8 @@ cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& v
                      "'; publish images in mono, bgr(a), rgb(a) or Bayer of 8 or 16 bits, or in yuv422.");
   }
   checkLayout(message, *encoding, view_name);
+  checkPixels(cv::Size(static_cast<int>(message.width), static_cast<int>(message.height)), max_megapixels,
+              view_name);
   // cv::Mat knows no constant memory; what is returned is only read.
   auto* const data = const_cast<std::uint8_t*>(message.data.data());
   if (message.step % static_cast<std::size_t>(CV_ELEM_SIZE1(encoding->type)) != 0)
@@ -196,8 +206,13 @@ cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& v
 }
 
 cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std::string& view_name,
-                         cv::Mat* mask)
+                         cv::Mat* mask, double max_megapixels)
 {
+  const std::string_view bytes(reinterpret_cast<const char*>(message.data.data()), message.data.size());
+  if (const std::optional<cv::Size> size = encodedSize(bytes))
+  {
+    checkPixels(*size, max_megapixels, view_name);
+  }
   // Where an image should be turned is for those who look at it; the calibration knows the pixels as they
   // are, and so does 'unchanged', which also leaves the alpha channel.
   cv::Mat image = decoded(message.data);
@@ -207,6 +222,7 @@ cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std:
                      " bytes and the format '" + message.format +
                      "' cannot be decoded; publish JPEG or PNG of 8 or 16 bits.");
   }
+  checkPixels(image.size(), max_megapixels, view_name);
   keepMask(image, mask);
   if (image.channels() == 4)
   {

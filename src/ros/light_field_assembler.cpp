@@ -134,20 +134,22 @@ std::vector<LightFieldAssembler::Pixels> LightFieldAssembler::decode(
     const std::vector<ViewImage>& images, const std::vector<sensor_msgs::ImageConstPtr>& masks) const
 {
   std::vector<Pixels> pixels(images.size());
-  pool_.parallelFor(0, static_cast<int>(images.size()), 1,
-                    [&](int first, int /*last*/)
-                    {
-                      const auto i = static_cast<std::size_t>(first);
-                      if (images[i])
-                      {
-                        const std::string name = describe(array_.views[i]);
-                        Pixels& view = pixels[i];
-                        view.image = images[i].raw() != nullptr
-                                         ? imageFromMessage(*images[i].raw(), name, &view.mask)
-                                         : imageFromMessage(*images[i].compressed(), name, &view.mask);
-                        addGivenMasks(i, i < masks.size() ? masks[i] : nullptr, view);
-                      }
-                    });
+  pool_.parallelFor(
+      0, static_cast<int>(images.size()), 1,
+      [&](int first, int /*last*/)
+      {
+        const auto i = static_cast<std::size_t>(first);
+        if (images[i])
+        {
+          const std::string name = describe(array_.views[i]);
+          Pixels& view = pixels[i];
+          view.image =
+              images[i].raw() != nullptr
+                  ? imageFromMessage(*images[i].raw(), name, &view.mask, options_.max_megapixels)
+                  : imageFromMessage(*images[i].compressed(), name, &view.mask, options_.max_megapixels);
+          addGivenMasks(i, i < masks.size() ? masks[i] : nullptr, view);
+        }
+      });
   return pixels;
 }
 

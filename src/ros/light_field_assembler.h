@@ -10,6 +10,7 @@
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
 
+#include "light_field_depth/core/input_limits.h"
 #include "light_field_depth/core/light_field.h"
 #include "light_field_depth/core/thread_pool.h"
 #include "light_field_depth/ros/calibration_from_camera_info.h"
@@ -32,6 +33,9 @@ struct AssemblerOptions
 
   /// Views are reduced to one pixel for so many by so many.
   int decimation = 1;
+
+  /// Of an image, as it comes.
+  double max_megapixels = InputLimits().megapixels;
 };
 
 /// Makes light fields of whole sets of messages: decodes, rectifies and reduces the images, on the threads of

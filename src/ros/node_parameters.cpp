@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -24,6 +25,8 @@ constexpr int MAX_THREADS = 1024;
 constexpr int MAX_DECIMATION = 16;
 constexpr double MAX_SECONDS = 1e6;
 constexpr double MAX_MEMORY_MB = 1e9;
+constexpr double MAX_MEGAPIXELS = 1e6;
+constexpr double SMALLEST_LIMIT = 1e-3;  ///< of MB and megapixels
 
 template <class T>
 const char* typeName()
@@ -148,6 +151,10 @@ void readSets(const ros::NodeHandle& node_handle, ParameterReader& reader, NodeP
   {
     parameters.array = viewArrayFromParameter(array);
   }
+  reader.readInRange("max_views", 2, std::numeric_limits<int>::max(), parameters.limits.views);
+  requireViews(parameters.array.views.size(), parameters.limits.views,
+               "Give the array fewer views, or raise max_views.");
+  reader.readInRange("max_message_size", SMALLEST_LIMIT, MAX_MEMORY_MB, parameters.limits.message_mb);
   reader.readInRange("sync_tolerance", 0.0, MAX_TOLERANCE_S, parameters.sync_tolerance_s);
   reader.readInRange("queue_size", 1, MAX_QUEUE, parameters.queue_size);
   reader.read("keep_all", parameters.keep_all);
@@ -190,6 +197,7 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_node_handle)
   }
   reader.read("lazy", parameters.lazy);
   reader.readInRange("threads", 0, MAX_THREADS, parameters.threads);
+  reader.readInRange("max_megapixels", SMALLEST_LIMIT, MAX_MEGAPIXELS, parameters.limits.megapixels);
   reader.readInRange("max_memory", 0.0, MAX_MEMORY_MB, parameters.max_memory_mb);
   reader.read("frame_id", parameters.frame_id);
   reader.read("target_frame", parameters.target_frame);

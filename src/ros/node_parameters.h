@@ -8,6 +8,7 @@
 #include <ros/node_handle.h>
 #include <sensor_msgs/CameraInfo.h>
 
+#include "light_field_depth/core/input_limits.h"
 #include "light_field_depth/ros/calibration_from_camera_info.h"
 #include "light_field_depth/ros/view_array.h"
 #include "ros/input_health.h"
@@ -50,6 +51,9 @@ struct NodeParameters
 
   /// `threads` that work on a frame; 0 takes one per processor.
   int threads = 0;
+
+  /// `max_views`, `max_megapixels` of an image as it comes, `max_message_size` in MB of a message with one.
+  InputLimits limits;
 
   /// `max_memory`, in MB: a set that may need more is refused; 0: what the machine has.
   double max_memory_mb = 0.0;

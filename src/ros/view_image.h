@@ -1,6 +1,7 @@
 #ifndef LIGHT_FIELD_DEPTH_SRC_ROS_VIEW_IMAGE_H
 #define LIGHT_FIELD_DEPTH_SRC_ROS_VIEW_IMAGE_H
 
+#include <cstddef>
 #include <utility>
 
 #include <sensor_msgs/CompressedImage.h>
@@ -26,6 +27,8 @@ public:
   {
     return raw_ ? raw_->header : compressed_ ? compressed_->header : std_msgs::Header();
   }
+
+  std::size_t bytes() const { return raw_ ? raw_->data.size() : compressed_ ? compressed_->data.size() : 0; }
 
 private:
   sensor_msgs::ImageConstPtr raw_;

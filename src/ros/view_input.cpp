@@ -6,6 +6,9 @@
 
 #include <boost/function.hpp>
 
+#include "light_field_depth/core/error.h"
+#include "light_field_depth/core/input_limits.h"
+
 namespace light_field_depth
 {
 namespace
@@ -27,10 +30,11 @@ ViewSynchronizerOptions synchronizerOptions(const NodeParameters& parameters, co
 
 ViewInput::ViewInput(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle,
                      const NodeParameters& parameters, FrameCallback on_frame,
-                     CalibratedCallback on_calibrated)
+                     CalibratedCallback on_calibrated, RefusedCallback on_refused)
     : node_handle_(node_handle), private_node_handle_(private_node_handle), parameters_(parameters),
       quorum_(parameters.array, static_cast<std::size_t>(parameters.min_views)),
-      on_frame_(std::move(on_frame)), on_calibrated_(std::move(on_calibrated)), image_transport_(node_handle),
+      on_frame_(std::move(on_frame)), on_calibrated_(std::move(on_calibrated)),
+      on_refused_(std::move(on_refused)), image_transport_(node_handle),
       synchronizer_(synchronizerOptions(parameters, quorum_)), infos_(parameters.camera_infos),
       masks_(parameters.array.views.size()), given_up_(parameters.array.views.size())
 {
@@ -92,8 +96,11 @@ void ViewInput::subscribeTo(std::size_t view)
     const boost::function<void(const sensor_msgs::ImageConstPtr&)> on_mask =
         [this, view](const sensor_msgs::ImageConstPtr& mask)
     {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      masks_[view] = mask;
+      if (isAdmitted(view, mask))
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        masks_[view] = mask;
+      }
     };
     mask_subscribers_.push_back(
         node_handle_.subscribe<sensor_msgs::Image>(topics.mask, 1, on_mask, ros::VoidPtr(), hints));
@@ -219,8 +226,28 @@ ViewSynchronizerStatistics ViewInput::statistics() const
   return synchronizer_.statistics();
 }
 
+bool ViewInput::isAdmitted(std::size_t view, const ViewImage& image) const
+{
+  try
+  {
+    requireMessageSize(image.bytes(), parameters_.limits.message_mb,
+                       describe(parameters_.array.views[view]) + ": the message",
+                       "Publish smaller images, or raise max_message_size.");
+    return true;
+  }
+  catch (const InputError& error)
+  {
+    on_refused_(error.what());
+    return false;
+  }
+}
+
 void ViewInput::imageCallback(std::size_t view, const ViewImage& image)
 {
+  if (!isAdmitted(view, image))
+  {
+    return;
+  }
   std::vector<Synchronizer::Set> sets;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -31,12 +31,15 @@ class ViewInput
 public:
   using FrameCallback = std::function<void(FrameSet)>;
   using CalibratedCallback = std::function<void()>;
+  using RefusedCallback = std::function<void(const std::string& sentence)>;
 
   /// @param on_frame      called with every whole set
   /// @param on_calibrated called when every view that is not given up has had a CameraInfo
-  /// Both are called from the threads of the node handle's callback queue.
+  /// @param on_refused    called with a sentence for every message that is larger than the limit, and is not
+  /// used All are called from the threads of the node handle's callback queue.
   ViewInput(const ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle,
-            const NodeParameters& parameters, FrameCallback on_frame, CalibratedCallback on_calibrated);
+            const NodeParameters& parameters, FrameCallback on_frame, CalibratedCallback on_calibrated,
+            RefusedCallback on_refused);
   ~ViewInput();
 
   void subscribe();
@@ -64,6 +67,8 @@ private:
   void subscribeTo(std::size_t view);
   void deliver(std::vector<Synchronizer::Set> sets);
   bool isCalibrated() const;
+  /// Calls on_refused for what is too large. @return whether it is not
+  bool isAdmitted(std::size_t view, const ViewImage& image) const;
   void imageCallback(std::size_t view, const ViewImage& image);
   void cameraInfoCallback(std::size_t view, const sensor_msgs::CameraInfoConstPtr& info);
 
@@ -73,6 +78,7 @@ private:
   ViewQuorum quorum_;
   FrameCallback on_frame_;
   CalibratedCallback on_calibrated_;
+  RefusedCallback on_refused_;
   image_transport::ImageTransport image_transport_;
   std::vector<image_transport::Subscriber> image_subscribers_;
   std::vector<ros::Subscriber> compressed_subscribers_;

@@ -8,6 +8,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "light_field_depth/core/input_limits.h"
 #include "light_field_depth/core/memory_need.h"
 #include "tools/estimate_arguments.h"
 #include "tools/estimate_frame.h"
@@ -78,6 +79,7 @@ int estimate(const lfd::EstimateArguments& arguments)
   lfd::DatasetOptions options = lfd::makeDatasetOptions(arguments);
   options.admit = [&](std::size_t views, const cv::Mat& one)
   {
+    lfd::requireViews(views, arguments.limits.views, "Choose fewer --views, or raise --max-views.");
     lfd::ProductRequest request;
     request.dense_cloud = arguments.dense || arguments.view_maps;
     lfd::requireMemory({views, one.size(), one.type()}, report.options, request, arguments.max_memory_mb,

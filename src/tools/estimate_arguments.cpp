@@ -1,5 +1,7 @@
 #include "tools/estimate_arguments.h"
 
+#include <limits>
+
 #include "light_field_depth/core/error.h"
 #include "light_field_depth/io/pipeline_options_io.h"
 #include "tools/number_checks.h"
@@ -65,6 +67,13 @@ void declare(CLI::App& app, EstimateArguments& arguments)
          "--max-memory", arguments.max_memory_mb,
          "MB that a run may need; more is refused before the views are read; what the machine has by default")
       ->check(POSITIVE);
+  app.add_option("--max-views", arguments.limits.views, "views that a run may read; more are refused")
+      ->check(CLI::Range(2, std::numeric_limits<int>::max()))
+      ->capture_default_str();
+  app.add_option("--max-megapixels", arguments.limits.megapixels,
+                 "millions of pixels that an image may have; a larger one is refused before it is decoded")
+      ->check(POSITIVE)
+      ->capture_default_str();
   app.add_flag("--save-intermediate", arguments.save_intermediate,
                "also write the results of the single stages to OUTPUT/intermediate");
   declareOutput(app, arguments.output_files);
@@ -143,6 +152,7 @@ DatasetOptions makeDatasetOptions(const EstimateArguments& arguments)
   DatasetOptions options;
   options.threads = arguments.threads;
   options.mask_black = arguments.mask_black;
+  options.max_megapixels = arguments.limits.megapixels;
   if (!arguments.reference.empty())
   {
     options.reference = GridPosition{arguments.reference[0], arguments.reference[1]};

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "light_field_depth/core/input_limits.h"
 #include "light_field_depth/core/pipeline.h"
 #include "light_field_depth/io/dataset.h"
 #include "tools/estimate_output.h"
@@ -34,6 +35,7 @@ struct EstimateArguments
   bool dense = false;
   bool view_maps = false;
   int threads = 0;
+  InputLimits limits;
   double max_memory_mb = 0.0;
   bool save_intermediate = false;
   OutputArguments output_files;

@@ -178,6 +178,27 @@ TEST_F(ToolFaults, WhatNeedsMoreMemoryThanAllowedIsRefusedBeforeItIsRead)
   EXPECT_EQ(testing::runProgram(command("--max-memory nan")).exit_code, 1);
 }
 
+TEST_F(ToolFaults, MoreViewsOrPixelsThanAllowedAreRefusedWithWhatWouldFit)
+{
+  const Outcome views = testing::runProgram(command("--views all --max-views 8"));
+  EXPECT_EQ(views.exit_code, 1);
+  EXPECT_NE(views.errors.find("9 views are too many: 8 would fit"), std::string::npos) << views.errors;
+  const Outcome pixels = testing::runProgram(command("--max-megapixels 0.003"));
+  EXPECT_EQ(pixels.exit_code, 1);
+  EXPECT_NE(pixels.errors.find("64 x 48 pixels, which are too many: 63 x 47 would fit"), std::string::npos)
+      << pixels.errors;
+  expectOldResults();
+  // What says to be larger than it is costs nothing either.
+  std::string lie = readFile(folder_ / "scene/view_0_0.png");
+  lie.replace(16, 8, std::string("\x00\x00\x75\x30\x00\x00\x75\x30", 8));
+  folder_.write("scene/view_0_0.png", lie);
+  const Outcome lies = testing::runProgram(command());
+  EXPECT_EQ(lies.exit_code, 1);
+  EXPECT_NE(lies.errors.find("30000 x 30000 pixels, which are too many: 20000 x 20000"), std::string::npos)
+      << lies.errors;
+  expectOldResults();
+}
+
 TEST(EvaluateFaults, AMapWithoutValuesIsBadWhateverTheTruth)
 {
   const TemporaryFolder folder;

@@ -27,6 +27,7 @@
 #include "array_fixture.h"
 #include "child_program.h"
 #include "light_field_depth/LightFieldDepthStats.h"
+#include "light_field_depth/core/error.h"
 #include "light_field_depth/nodelets/result_saver.h"
 #include "support/limits.h"
 #include "support/sanitizers.h"
@@ -244,6 +245,36 @@ TEST_F(NodeFaults, SetsThatMayNeedMoreMemoryThanAllowedAreRefused)
                      return diagnosed(diagnostics, {"3 views of 64 x 48 pixels", "10 MB are allowed"});
                    }));
   EXPECT_EQ(disparity.count(), 0U);
+}
+
+TEST_F(NodeFaults, ImagesAndMessagesThatAreTooLargeAreRefused)
+{
+  const SyntheticLightField scene = syntheticArray(gridPositions(1, 3), SMALL);
+  ArrayPublisher array(*array_space_, scene.light_field);
+  const Listener<diagnostic_msgs::DiagnosticArray> diagnostics(*node_space_, "/diagnostics");
+  setParameter("max_megapixels", 0.003);
+  startNode(scene.light_field);
+  const DisparityListener disparity(*node_space_, "disparity");
+  EXPECT_TRUE(
+      publishUntil(array,
+                   [&] {
+                     return diagnosed(diagnostics, {"64 x 48 pixels", "63 x 47 would fit", "max_megapixels"});
+                   }));
+  node_.reset();
+  setParameter("max_megapixels", 1.0);
+  setParameter("max_message_size", 0.001);
+  startNode(scene.light_field);
+  EXPECT_TRUE(publishUntil(array, [&] { return diagnosed(diagnostics, {"View (0, ", "max_message_size"}); }));
+  EXPECT_EQ(disparity.count(), 0U);
+  node_.reset();
+  setParameter("max_message_size", 1.0);
+  setParameter("max_views", 2);
+  EXPECT_NE(
+      messageOf<InputError>([&] { startNode(scene.light_field); }).find("3 views are too many: 2 would fit"),
+      std::string::npos);
+  setParameter("max_views", 3);
+  startNode(scene.light_field);
+  EXPECT_TRUE(publishUntil(array, [&] { return disparity.count() > 0; }));
 }
 
 TEST_F(NodeFaults, MemoryThatDoesNotSufficeCostsTheFrameAlone)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "light_field_depth/core/input_limits.h"
 #include "light_field_depth/core/light_field.h"
 
 namespace light_field_depth
@@ -96,6 +97,7 @@ struct DatasetOptions
   /// Is told how many views are to be decoded and one of them, before the others are, but for some that the
   /// layout is found from; may throw. Empty: all are welcome.
   std::function<void(std::size_t views, const cv::Mat& one)> admit;
+  double max_megapixels = InputLimits().megapixels;  ///< of an image file; with more it is refused
   bool mask_black = false;  ///< what is black up to the border of a view shows nothing of the scene
   int threads = 0;          ///< that decode images; 0 takes one per processor
 };

@@ -6,6 +6,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "light_field_depth/core/input_limits.h"
+
 namespace light_field_depth
 {
 /// Whether a file's extension is one of the image formats that are read, in upper or lower case: PNG,
@@ -20,8 +22,11 @@ std::string imageFormatsText();
 /// upright. Thread safe.
 /// @param mask becomes the mask that the alpha channel of a PNG makes (core/mask_sources.h); empty where
 /// there is none
-/// @throw InputError if the file cannot be read, is truncated or damaged, or has values of another kind
-cv::Mat readImage(const std::filesystem::path& path, cv::Mat* mask = nullptr);
+/// @param max_megapixels of the image; a larger PNG, JPEG, BMP, PGM or PPM is refused before it is decoded
+/// @throw InputError if the file cannot be read, is truncated or damaged, has values of another kind or is
+/// too large
+cv::Mat readImage(const std::filesystem::path& path, cv::Mat* mask = nullptr,
+                  double max_megapixels = InputLimits().megapixels);
 
 /// Writes an image in the format that the extension names; the file appears whole or not at all.
 /// @throw InputError if the file cannot be written

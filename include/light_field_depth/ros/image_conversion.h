@@ -7,6 +7,8 @@
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
 
+#include "light_field_depth/core/input_limits.h"
+
 namespace light_field_depth
 {
 /// The image of a view, of a type that View::image allows.
@@ -20,17 +22,18 @@ namespace light_field_depth
 /// @param mask      becomes the mask of the view (View::mask) where the image has an alpha channel: 0 where
 /// alpha is 0;
 ///                  empty where it has none, or one that is 0 everywhere, as drivers write that do not use it
+/// @param max_megapixels of the image as it comes; a larger one is refused before anything is allocated
 /// @throw InputError for an empty image, another encoding, or a step or an amount of data that does not fit
 /// the
 ///   size
 cv::Mat imageFromMessage(const sensor_msgs::Image& message, const std::string& view_name,
-                         cv::Mat* mask = nullptr);
+                         cv::Mat* mask = nullptr, double max_megapixels = InputLimits().megapixels);
 
 /// The same of a JPEG or PNG, as image_transport's compressed topics have them. A Bayer pattern that its
 /// format names is demosaicked.
 /// @throw InputError for data that cannot be decoded
 cv::Mat imageFromMessage(const sensor_msgs::CompressedImage& message, const std::string& view_name,
-                         cv::Mat* mask = nullptr);
+                         cv::Mat* mask = nullptr, double max_megapixels = InputLimits().megapixels);
 
 /// A mask as a message: any encoding that imageFromMessage() takes, 0 where masked. @throw InputError as it
 /// does

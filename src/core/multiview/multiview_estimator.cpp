@@ -28,8 +28,6 @@ namespace
 using multiview::SceneMeasures;
 using multiview::SolverSettings;
 
-/// Above this many pixels the search goes from coarse to fine.
-constexpr int LARGE_PIXELS = 1'000'000;
 /// With at most this many views in the row and column of the reference, all views are used.
 constexpr int FEW_VIEWS = 6;
 
@@ -49,7 +47,7 @@ constexpr int SPARED_REFINEMENTS = 1;
 
 bool isLarge(const LightField& light_field)
 {
-  return light_field.size().area() > LARGE_PIXELS;
+  return light_field.size().area() > MultiviewEstimator::LARGE_PIXELS;
 }
 
 /// Marks more pixels as filled. @param where CV_8UC1; empty: all

@@ -26,6 +26,9 @@ ViewSelection selectionOf(const LightField& light_field, ViewSelection wanted);
 class MultiviewEstimator : public Estimator
 {
 public:
+  /// Views with more pixels are searched from coarse to fine.
+  static constexpr int LARGE_PIXELS = 1'000'000;
+
   explicit MultiviewEstimator(MultiviewOptions options = {});
   ~MultiviewEstimator() override;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/multiview/multiview_estimator.h"
 #include "light_field_depth/core/error.h"
 
 namespace light_field_depth
@@ -24,8 +25,6 @@ constexpr std::size_t MOST_PAPER2017_VIEWS = 33;
 /// Of each view, besides its image and the copy with 8 bits a channel.
 constexpr double BYTES_OF_VIEW = 4.0;
 constexpr double BYTES_OF_DENSE_CLOUD = 530.0;  ///< maps of the other views; 512 were seen
-/// As MultiviewEstimator has it: larger views are searched from coarse to fine.
-constexpr double LARGE_PIXELS = 1e6;
 constexpr double BYTES_PER_MB = 1e6;
 constexpr int LEAST_SIDE_PX = 16;  ///< of a view
 
@@ -42,7 +41,7 @@ double bytesPerPixel(double pixels, const PipelineOptions& options, const Produc
   {
     bytes = BYTES_OF_FAST;
   }
-  else if (pixels <= LARGE_PIXELS)
+  else if (pixels <= MultiviewEstimator::LARGE_PIXELS)
   {
     bytes = BYTES_OF_SMALL;
   }
