@@ -1,6 +1,7 @@
 #include "light_field_depth/core/thread_pool.h"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <system_error>
 
@@ -10,13 +11,15 @@ namespace light_field_depth
 {
 namespace
 {
-/// Between two stages of a frame a thread waits some microseconds; to sleep and to be woken takes longer.
-constexpr int YIELDS_BEFORE_SLEEP = 100;
+/// Between two stages of a frame a thread waits some microseconds; to sleep and to be woken takes longer. By
+/// the clock, as on a busy machine one yield alone may take milliseconds.
+constexpr std::chrono::microseconds YIELDING(50);
 
 template <typename Condition>
 void yieldUntil(const Condition& condition)
 {
-  for (int i = 0; i < YIELDS_BEFORE_SLEEP && !condition(); ++i)
+  const auto end = std::chrono::steady_clock::now() + YIELDING;
+  while (!condition() && std::chrono::steady_clock::now() < end)
   {
     std::this_thread::yield();
   }

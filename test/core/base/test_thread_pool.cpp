@@ -1,5 +1,10 @@
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <set>
+#include <thread>
+#include <vector>
 
 #include <sys/resource.h>
 
@@ -90,6 +95,67 @@ TEST(ThreadPool, RefusesMoreThreadsThanTheSystemGives)
     EXPECT_THROW(ThreadPool(4096), InputError);
   }
   EXPECT_EQ(ThreadPool(3).threads(), 3);
+}
+
+/// Of which each takes all of a processor that it gets.
+class BusyThreads
+{
+public:
+  BusyThreads()
+  {
+    for (unsigned i = 0; i < 4 * std::max(1U, std::thread::hardware_concurrency()); ++i)
+    {
+      threads_.emplace_back(
+          [this]
+          {
+            while (!stopped_)
+            {
+            }
+          });
+    }
+  }
+  ~BusyThreads()
+  {
+    stopped_ = true;
+    for (std::thread& thread : threads_)
+    {
+      thread.join();
+    }
+  }
+  BusyThreads(const BusyThreads&) = delete;
+  BusyThreads& operator=(const BusyThreads&) = delete;
+
+private:
+  std::atomic<bool> stopped_{false};
+  std::vector<std::thread> threads_;
+};
+
+TEST(ThreadPool, IsNotHeldUpByItsOwnWaitingOnABusyMachine)
+{
+  using Clock = std::chrono::steady_clock;
+  constexpr int YIELDS = 10;
+  const BusyThreads others;
+  const auto start = Clock::now();
+  for (int i = 0; i < YIELDS; ++i)
+  {
+    std::this_thread::yield();
+  }
+  const auto yields = Clock::now() - start;
+  auto pool = std::make_unique<ThreadPool>(2);
+  std::atomic<int> at_work{0};  // both threads, so that the pool's own waits for more now
+  pool->parallelFor(0, 2, 1,
+                    [&](int, int)
+                    {
+                      ++at_work;
+                      while (at_work < 2)
+                      {
+                        std::this_thread::yield();
+                      }
+                    });
+  const auto end = Clock::now();
+  pool.reset();
+  // Its thread has to get a processor some times, not a hundred times.
+  EXPECT_LT(Clock::now() - end, 3 * yields + std::chrono::milliseconds(5));
 }
 
 TEST(ThreadPool, StopsWhenCancelled)
