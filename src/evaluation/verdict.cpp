@@ -214,6 +214,20 @@ void judgeExchanges(const LightField& light_field, const cv::Mat& disparity, con
   }
 }
 
+void judgeFilled(const cv::Mat& filled, const VerdictOptions& options, Verdict& verdict)
+{
+  if (filled.empty())
+  {
+    return;
+  }
+  const double share = static_cast<double>(cv::countNonZero(filled)) / static_cast<double>(filled.total());
+  const bool most = share > options.max_filled;
+  add(verdict, "filled", most, share,
+      percent(share) + " of the map is filled from what lies around it, where the views tell nothing" +
+          (most ? "; light or mark what is blank there, or believe only what the confidence map shows."
+                : "."));
+}
+
 void judgeRange(const ViewSamples& samples, const DisparityRange& range, const VerdictOptions& options,
                 Verdict& verdict)
 {
@@ -345,6 +359,7 @@ Verdict judgeResult(const LightField& light_field, const DisparityEstimate& esti
   judgeImages(light_field, bytes, options, verdict);
   const ViewSamples samples = sampleViews(bytes, estimate.disparity, pool);
   judgeAgreement(samples, options, verdict);
+  judgeFilled(estimate.filled, options, verdict);
   judgeViews(light_field, samples, options, verdict);
   judgeExchanges(bytes, estimate.disparity, options, pool, verdict);
   judgeRange(samples, estimate.range, options, verdict);

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -80,6 +81,23 @@ TEST(Verdict, NoRightLightFieldIsWarnedAbout)
     // Without mixed pixels at edges, which only a measure of accuracy needs.
     scene.settings.samples = 1;
     expectNoWarning(scene.render().light_field, scene.name);
+  }
+}
+
+TEST(Verdict, AMapThatIsFilledForTheMostPartIsWarnedAbout)
+{
+  const testing::SyntheticLightField scene = testing::rightScene();
+  const LightField& field = scene.light_field;
+  ThreadPool pool(2);
+  DisparityEstimate estimate;
+  estimate.disparity = scene.truth;
+  estimate.range = {-3.0F, 3.0F};
+  estimate.filled = cv::Mat::zeros(field.size(), CV_8UC1);
+  for (const auto& [share, warned] : {std::make_pair(0.7, false), std::make_pair(0.9, true)})
+  {
+    estimate.filled.rowRange(0, static_cast<int>(share * field.size().height)).setTo(255);
+    const std::string warnings = warningsOf(judgeResult(field, estimate, pool));
+    EXPECT_EQ(warnings.find("of the map is filled") != std::string::npos, warned) << warnings;
   }
 }
 
