@@ -111,8 +111,13 @@ Recognition recognizeFourDigits(const FolderListing& listing, const DatasetOptio
     rows.insert(number / digits->columns);
     columns.insert(number % digits->columns);
   }
-  // An index runs on without a gap, from 0099 to 0100; rows of columns begin anew.
-  const bool runs_on = *numbers.rbegin() - *numbers.begin() + 1 == static_cast<long long>(numbers.size());
+  // An index runs on without a gap, from 0099 to 0100; rows of columns begin anew. Within one hundred it may
+  // have gaps, too, where views are missing: the images tell a single row from a grid.
+  const bool crosses = std::any_of(
+      numbers.begin(), numbers.end(),
+      [&](long long number) { return (number + 1) % digits->columns == 0 && numbers.count(number + 1) > 0; });
+  const bool runs_on = *numbers.rbegin() - *numbers.begin() + 1 == static_cast<long long>(numbers.size()) ||
+                       (digits->columns == 100 && (crosses || rows.size() == 1));
   if (options.grid || runs_on || (rows.size() > 1 && columns.size() == 1 && rows.size() == numbers.size()))
   {
     return Recognition::no("the numbers run on like an index");

@@ -367,7 +367,7 @@ TEST(FormatZoo, AnIndexWithViewsMissingIsLaidOutByTheImages)
     {
       if (std::find(missing.places.begin(), missing.places.end(), place) == missing.places.end())
       {
-        write(folder, padded(missing.first_number + place, 3) + ".png",
+        write(folder, padded(missing.first_number + place, missing.places.size() == 4 ? 4 : 3) + ".png",
               RenderedScene::view(place / SIDE, place % SIDE));
       }
     }
