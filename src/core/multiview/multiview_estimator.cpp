@@ -385,6 +385,8 @@ void MultiviewEstimator::confirmPair(const LightField& chosen, const SceneMeasur
     // A fifth of the samples: a third of the time of the median, and the same share of wrong pixels to 0.2 %.
     fill.radius_px = 8;
     fill.stride_px = 4;
+    // The rest in 0.4 of its time, for 13.4 instead of 13.2 % of Art off by more than 4 px.
+    fill.max_colour_step = 8;
   }
   multiview::fillFromBackground(chosen.reference().image, unconfirmed,
                                 std::abs(other.steps.y) > std::abs(other.steps.x), fill, context.pool,

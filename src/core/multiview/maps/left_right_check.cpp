@@ -161,6 +161,20 @@ public:
   {
   }
 
+  /// Mean difference of the channels of two pixels, in levels.
+  int colourStep(const cv::Point& a, const cv::Point& b) const
+  {
+    const int channels = image_.channels();
+    const auto colour = [&](const cv::Point& pixel)
+    { return image_.ptr<std::uint8_t>(pixel.y) + static_cast<std::ptrdiff_t>(pixel.x) * channels; };
+    int difference = 0;
+    for (int channel = 0; channel < channels; ++channel)
+    {
+      difference += std::abs(colour(a)[channel] - colour(b)[channel]);
+    }
+    return difference / channels;
+  }
+
   float at(int x, int y)
   {
     samples_.clear();
@@ -280,7 +294,24 @@ void fillAlongRows(const cv::Mat& image, const cv::Mat& marked, const Background
                        auto* const row = disparity.ptr<float>(y);
                        for (int x = 0; x < disparity.cols; ++x)
                        {
-                         if (mark[x] != 0)
+                         if (mark[x] == 0)
+                         {
+                           continue;
+                         }
+                         const auto is_like = [&](int from_x, int from_y)
+                         {
+                           return marked.at<std::uint8_t>(from_y, from_x) != 0 &&
+                                  median.colourStep({x, y}, {from_x, from_y}) <= settings.max_colour_step;
+                         };
+                         if ((y - first) % 2 == 1 && is_like(x, y - 1))
+                         {
+                           row[x] = disparity.at<float>(y - 1, x);
+                         }
+                         else if (x % 2 == 1 && is_like(x - 1, y))
+                         {
+                           row[x] = row[x - 1];
+                         }
+                         else
                          {
                            row[x] = median.at(x, y);
                          }

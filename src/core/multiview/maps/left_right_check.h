@@ -34,6 +34,9 @@ struct BackgroundFillSettings
   int radius_px = 10;          ///< of the window of the median
   int stride_px = 2;           ///< of its rows and columns that count; a multiple of it leads to the middle
   float colour_scale = 10.0F;  ///< difference of colour, mean of the channels, that lowers a weight by e
+  /// Every second row and column take the median of the pixel above or before them if the two colours differ
+  /// by no more than this, mean of the channels; negative: every pixel has its own.
+  int max_colour_step = -1;
 };
 
 /// Gives the marked pixels the disparity of the farther of the two surfaces beside them: what one of two

@@ -199,6 +199,38 @@ TEST(BackgroundFill, TakesTheMedianOfWhatHasTheSameColour)
   }
 }
 
+TEST(BackgroundFill, EverySecondPixelMayTakeTheMedianOfAnEqualNeighbour)
+{
+  ThreadPool pool(2);
+  BackgroundFillSettings settings;
+  settings.max_colour_step = 8;
+  cv::Mat image(SIZE, CV_8UC3, cv::Scalar(90, 90, 90));
+  for (int x = 0; x < SIZE.width; ++x)
+  {
+    image.col(x).setTo(cv::Scalar::all(x % 4 < 2 ? 90 : 190));  // stripes: copies end where colours change
+  }
+  cv::Mat before = leftMap().clone();
+  cv::RNG random(3);
+  random.fill(before, cv::RNG::UNIFORM, 0.0F, 4.0F);
+  const cv::Mat marked(hidden());
+  cv::Mat every = before.clone();
+  cv::Mat some = before.clone();
+  fillFromBackground(image, marked, false, {}, pool, every);
+  fillFromBackground(image, marked, false, settings, pool, some);
+  int copied = 0;
+  for (int y = 0; y < SIZE.height; ++y)
+  {
+    for (int x = 0; x < SIZE.width; ++x)
+    {
+      const bool is_copy = some.at<float>(y, x) != every.at<float>(y, x);
+      copied += is_copy ? 1 : 0;
+      EXPECT_TRUE(!is_copy || (marked.at<std::uint8_t>(y, x) != 0 && (x % 2 == 1 || y % 2 == 1)))
+          << x << " " << y;
+    }
+  }
+  EXPECT_GT(copied, 0);
+}
+
 TEST(BackgroundFill, ReachesRowsWithoutAnyValueAndLeavesAMapWithoutAnyAsItIs)
 {
   const cv::Mat image(SIZE, CV_8UC1, cv::Scalar(80));
