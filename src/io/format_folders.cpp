@@ -207,7 +207,8 @@ bool showsGrid(const FolderListing& listing, const DatasetOptions& options)
   std::vector<cv::Mat> thumbnails;
   for (int i = 0; i < thumbnailsForRunLength(count); ++i)
   {
-    thumbnails.push_back(thumbnailOf(readImage(views[static_cast<std::size_t>(i)].path)));
+    thumbnails.push_back(
+        thumbnailOf(readImage(views[static_cast<std::size_t>(i)].path, nullptr, options.max_megapixels)));
     if (thumbnails.back().size() != thumbnails.front().size())
     {
       return false;

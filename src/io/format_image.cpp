@@ -117,7 +117,7 @@ std::optional<cv::Size> lensletsOfSize(const cv::Size& size)
 
 Recognition recognizeParts(const std::filesystem::path& file, const DatasetOptions& options)
 {
-  const cv::Mat image = readImage(file);
+  const cv::Mat image = readImage(file, nullptr, options.max_megapixels);
   if (options.tiles)
   {
     if (image.cols % options.tiles->width != 0 || image.rows % options.tiles->height != 0)

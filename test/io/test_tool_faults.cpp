@@ -199,6 +199,39 @@ TEST_F(ToolFaults, MoreViewsOrPixelsThanAllowedAreRefusedWithWhatWouldFit)
   expectOldResults();
 }
 
+TEST_F(ToolFaults, TilesThatDoNotFitOrAreTooLargeAreRefused)
+{
+  const std::string sheet = (folder_ / "scene/sheet.png").string();
+  cv::imwrite(sheet, cv::Mat(48, 192, CV_8UC1, cv::Scalar(90)));
+  const auto estimate = [&](const std::string& more)
+  {
+    return testing::runProgram(quoted(ESTIMATE_PROGRAM) + " --input " + quoted(sheet) + " --output " +
+                               quoted((folder_ / "results").string()) + " " + more);
+  };
+  const Outcome cut = estimate("--tiles 1x5");
+  EXPECT_EQ(cut.exit_code, 1);
+  EXPECT_NE(cut.errors.find("192 x 48 pixels cannot be cut into 1 x 5"), std::string::npos) << cut.errors;
+  const Outcome large = estimate("--tiles 1x3 --max-megapixels 0.009");
+  EXPECT_EQ(large.exit_code, 1);
+  EXPECT_NE(large.errors.find("192 x 48 pixels, which are too many"), std::string::npos) << large.errors;
+  expectOldResults();
+}
+
+TEST_F(ToolFaults, MapsOfAllViewsAndTheDenseCloudComeWithTheOtherResults)
+{
+  const Outcome outcome =
+      testing::runProgram(command("--dense --view-maps --focal-length 60 --baseline 0.1"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::filesystem::path maps = folder_ / "results/view_maps";
+  for (const char* const name : {"disparity_00_00.pfm", "confidence_02_01.pfm"})
+  {
+    EXPECT_EQ(readPfm(maps / name).size(), cv::Size(64, 48)) << name;
+  }
+  EXPECT_EQ(cv::imread((maps / "origin_01_01.png").string(), cv::IMREAD_UNCHANGED).size(), cv::Size(64, 48));
+  EXPECT_GT(std::filesystem::file_size(folder_ / "results/dense_cloud.ply"), 1000U);
+  expectNothingBeside();
+}
+
 TEST(EvaluateFaults, AMapWithoutValuesIsBadWhateverTheTruth)
 {
   const TemporaryFolder folder;
