@@ -31,6 +31,7 @@ COVERED_BY = {
     'format_place_words': 'test_format_zoo',
     'format_rows_and_columns': 'test_format_zoo',
     'format_transforms': 'test_planar_rig',
+    'normal_equations': 'test_joint_adjustment',
     'node_diagnostics': 'test_depth_node_behaviour',
     'node_parameters': 'test_parameters',
     'parameter_check': 'test_parameters',
