@@ -24,8 +24,9 @@ struct PathSettings
   int large_change_penalty = 1200;  ///< P2 for larger changes where the image does not change at all
 };
 
-/// Adds up the costs along the paths from the left, right, top and bottom, and takes the best label. Keeps
-/// its memory; one call at a time.
+/// Adds up the costs along the paths from the left, right, top and bottom, each pair of opposite ones in
+/// whole units (PACKED_UNIT, MAX_PACKED of path_kernels.h), and takes the best label. Keeps its memory; one
+/// call at a time.
 class PathAggregator
 {
 public:

@@ -85,24 +85,35 @@ struct Problem
         std::lround(std::max(LARGE_CHANGE_FLOOR * static_cast<float>(settings.small_change_penalty), step)));
   }
 
-  /// The formula of the header, pixel by pixel.
+  /// The formulas of the headers, pixel by pixel: each pair of opposite paths in whole units.
   std::vector<int> sums() const
   {
     std::vector<int> total(cost.size(), 0);
-    for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)})
+    for (const cv::Point step : {cv::Point(1, 0), cv::Point(0, 1)})
     {
-      std::vector<int> path(cost.size(), 0);
-      for (int i = 0; i < WIDTH * HEIGHT; ++i)
+      const std::vector<int> forth = pathAlong(step);
+      const std::vector<int> back = pathAlong(-step);
+      for (std::size_t i = 0; i < total.size(); ++i)
       {
-        const int pixel = step.x + step.y > 0 ? i : WIDTH * HEIGHT - 1 - i;
-        addPath({pixel % WIDTH, pixel / WIDTH}, step, path);
+        const int units = (forth[i] + back[i] + PACKED_UNIT / 2) / PACKED_UNIT;
+        total[i] += std::min(units, MAX_PACKED);
       }
-      std::transform(path.begin(), path.end(), total.begin(), total.begin(), std::plus<>());
     }
     return total;
   }
 
 private:
+  std::vector<int> pathAlong(const cv::Point& step) const
+  {
+    std::vector<int> path(cost.size(), 0);
+    for (int i = 0; i < WIDTH * HEIGHT; ++i)
+    {
+      const int pixel = step.x + step.y > 0 ? i : WIDTH * HEIGHT - 1 - i;
+      addPath({pixel % WIDTH, pixel / WIDTH}, step, path);
+    }
+    return path;
+  }
+
   void addPath(const cv::Point& pixel, const cv::Point& step, std::vector<int>& path) const
   {
     const cv::Point from = pixel - step;
