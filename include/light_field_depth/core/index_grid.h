@@ -64,13 +64,12 @@ RunLength findRunLengthWithGaps(const std::vector<cv::Mat>& thumbnails, int view
 /// how many views are missing before the first one (0 or 1).
 struct SquareWithoutCorners
 {
-  int side = 0;  ///< 0: it is none
-  int missing_before = 0;
+  int side = 0;            ///< 0: it is none
+  int missing_before = 0;  ///< views before the first one
 };
 
 /// @param present from the first view to the last: whether there is a view of this number; at least one
-/// inside
-///   is missing
+///   inside is missing
 SquareWithoutCorners findSquareWithoutCorners(const std::vector<bool>& present, int max_missing_before);
 
 }  // namespace light_field_depth
